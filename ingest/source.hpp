@@ -1,0 +1,50 @@
+// Raw files wherever they are: nested folders, single files, and archives as downloaded (.zip, .tar.*), read through libarchive.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace actformer::ingest {
+
+/// One file of a source: on disk to be read when wanted, or already in memory (out of an archive).
+struct RawFile {
+    std::string path;          ///< for messages: the file, or archive:member
+    std::string stem;          ///< file name without folder and extension
+    std::uint64_t size = 0;    ///< bytes of text
+    bool in_memory = false;
+    std::vector<char> bytes;   ///< in_memory: the text and 64 zero bytes after it
+    std::string unreadable;    ///< why it could not be read out of the archive; empty where it could
+
+    /// The text, in `scratch` or in `bytes`, followed by 64 zero bytes. Throws Error where the file cannot be read.
+    std::string_view text(std::vector<char>& scratch) const;
+};
+
+/// Walks RAW paths in an order that depends on names alone: paths as given, folders sorted, archives as stored.
+class Source {
+  public:
+    /// Throws Error where a path is missing or neither folder, archive nor a file with `extension`.
+    Source(const std::vector<std::filesystem::path>& raw, std::string_view extension);
+    ~Source();
+
+    /// The next file; false at the end. Throws Error naming the archive and member where an archive is broken.
+    bool next(RawFile& file);
+
+    /// Like next, but leaves the bytes of archive members behind: for listing and for skipping.
+    bool next_name(RawFile& file);
+
+    std::uint64_t bytes_total() const;  ///< on disk: of files and archives
+    std::uint64_t bytes_read() const;   ///< how many of those next() has passed
+
+    /// Fingerprint of which files there are: paths, sizes and times of change. Differs where a re-run would differ.
+    std::string listing() const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace actformer::ingest

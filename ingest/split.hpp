@@ -1,0 +1,28 @@
+// Splits are views: a clip is in a split where its metadata satisfies every condition.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace actformer::ingest {
+
+/// `field` is (or, where `negated`, is not) one of `values`.
+struct Condition {
+    std::string field;
+    std::vector<std::string> values;
+    bool negated = false;
+};
+
+struct Split {
+    std::string name;  ///< as in "xsub/train"
+    std::vector<Condition> conditions;
+
+    /// `fields` and `values` run alongside. Throws Error where a condition names a field that is not there.
+    bool holds(const std::vector<std::string>& fields, const std::vector<std::string>& values) const;
+};
+
+/// From the command line: "xstyle/train=style:active,normal", conditions joined by ';', "style!:a,b" for "is not".
+/// Throws Error showing this form.
+Split parse_split(const std::string& text);
+
+}  // namespace actformer::ingest

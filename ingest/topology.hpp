@@ -1,0 +1,29 @@
+// A skeleton's joints and how they hang together.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace actformer::ingest {
+
+/// Joints of a tree. Joint 0 is the root; joints may come in any order otherwise.
+struct Topology {
+    std::vector<std::string> names;
+    std::vector<int> parents;  ///< -1 for the root
+
+    std::size_t joints() const { return parents.size(); }
+
+    /// Every joint after its parent.
+    std::vector<std::uint32_t> order() const;
+
+    /// Throws Error, beginning with `where`, unless this is one tree rooted at joint 0 with distinct names.
+    void check(const std::string& where) const;
+
+    bool operator==(const Topology&) const = default;
+};
+
+/// The 25 joints of Kinect v2 with the limb parents of DESIGN 4.1.
+const Topology& ntu25();
+
+}  // namespace actformer::ingest

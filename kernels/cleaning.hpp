@@ -1,0 +1,53 @@
+// Cleaning of motion capture on the device: gap filling, smoothing, limb-vector normalisation (DESIGN 4.2).
+//
+// All three steps but the last are linear and treat joints alike, so they run on limbs: joint 0 is the root's position
+// and joint k the vector from k's parent to k, in metres. Taking that difference first, in double where the
+// text is read, keeps short limbs exact to float32 however far from the camera a body stands.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/buffer.hpp"
+
+namespace actformer::kernels {
+
+/// Many ragged clips, each of `persons` sequences of detections. Sequence s = clip * persons + person owns detections
+/// first[s] .. first[s+1]-1, at least one, at rising `times`.
+struct ClipBatch {
+    std::uint32_t persons = 1, joints = 0;
+    std::vector<std::uint32_t> frames;  ///< (clips) frames of each clip once cleaned, at least 1
+    std::vector<float> step;            ///< (clips) output frame t shows time t * step
+    std::vector<std::uint32_t> first;   ///< (clips * persons + 1)
+    std::vector<float> times;           ///< (detections) in frames of the recording
+
+    std::size_t clips() const { return frames.size(); }
+    std::size_t total_frames() const;
+};
+
+/// Gaussian over frames; sigma 0 switches it off.
+struct Smoothing {
+    float sigma = 3;
+    std::uint32_t radius = 12;
+};
+
+/// clip i's frames follow clip i-1's.
+struct CleanedBatch {
+    std::vector<float> motion;       ///< (total frames, P, K, 3): unit limbs, and the re-centred root in metres
+    std::vector<float> bone_length;  ///< (clips, P, K) metres, the mean over frames; 0 for the root
+};
+
+/// (total frames, P, K, 3): detections interpolated linearly at every output frame, held before the first and
+/// after the last. `limbs` is (detections, K, 3).
+Buffer<float> fill_gaps(Device& device, const ClipBatch& batch, const Buffer<float>& limbs);
+
+/// The same shape, each coordinate smoothed over its clip's frames; edges mirrored with the edge sample repeated.
+Buffer<float> smooth(Device& device, const ClipBatch& batch, const Buffer<float>& limbs, const Smoothing& how);
+
+/// Each limb divided by (its length + 1e-4); the mean root over a clip's frames and persons taken from its roots.
+CleanedBatch normalise(Device& device, const ClipBatch& batch, const Buffer<float>& limbs);
+
+/// The three in turn. `limbs` is (detections, K, 3).
+CleanedBatch clean(Device& device, const ClipBatch& batch, const Buffer<float>& limbs, const Smoothing& how);
+
+}  // namespace actformer::kernels

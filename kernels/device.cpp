@@ -1,0 +1,154 @@
+#include "kernels/device.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdlib>
+
+#include "kernels/program_cache.hpp"
+#include "kernels/sources.hpp"
+
+namespace actformer::kernels {
+namespace {
+
+std::vector<cl::Device> raw_devices() {
+    std::vector<cl::Platform> platforms;
+    try {
+        cl::Platform::get(&platforms);
+    } catch (const cl::Error&) {
+        return {};  // the loader reports "no platform" as an error
+    }
+    std::vector<cl::Device> all;
+    for (const auto& platform : platforms) {
+        std::vector<cl::Device> found;
+        try {
+            platform.getDevices(CL_DEVICE_TYPE_ALL, &found);
+        } catch (const cl::Error&) {
+            continue;  // a platform without devices
+        }
+        all.insert(all.end(), found.begin(), found.end());
+    }
+    return all;
+}
+
+DeviceInfo describe(const cl::Device& device, std::size_t index) {
+    const auto type = device.getInfo<CL_DEVICE_TYPE>();
+    DeviceInfo info;
+    info.index = index;
+    info.name = device.getInfo<CL_DEVICE_NAME>();
+    info.platform = cl::Platform(device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>();
+    info.version = device.getInfo<CL_DEVICE_VERSION>();
+    info.driver = device.getInfo<CL_DRIVER_VERSION>();
+    info.type = (type & CL_DEVICE_TYPE_GPU) ? "GPU" : (type & CL_DEVICE_TYPE_CPU) ? "CPU" : "accelerator";
+    info.compute_units = device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
+    info.clock_mhz = device.getInfo<CL_DEVICE_MAX_CLOCK_FREQUENCY>();
+    info.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+    info.max_allocation = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+    info.shares_memory = device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() != 0;
+    return info;
+}
+
+std::string lower(std::string_view text) {
+    std::string out(text);
+    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
+    return out;
+}
+
+std::string names_of(const std::vector<DeviceInfo>& devices) {
+    std::string out;
+    for (const auto& d : devices) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", d.index, d.name);
+    return out;
+}
+
+std::size_t default_device(const std::vector<DeviceInfo>& devices) {
+    const auto better = [](const DeviceInfo& a, const DeviceInfo& b) {
+        return std::pair(a.type == "GPU", a.type == "GPU" ? a.memory : 0) <
+               std::pair(b.type == "GPU", b.type == "GPU" ? b.memory : 0);
+    };
+    return std::max_element(devices.begin(), devices.end(), better) - devices.begin();
+}
+
+}  // namespace
+
+std::vector<DeviceInfo> list_devices() {
+    const auto devices = raw_devices();
+    std::vector<DeviceInfo> out;
+    out.reserve(devices.size());
+    for (const auto& device : devices) out.push_back(describe(device, out.size()));
+    return out;
+}
+
+std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view wish) {
+    if (devices.empty())
+        throw Error("no OpenCL device: install a driver (on Debian without a GPU: apt install pocl-opencl-icd)");
+    std::string from = "--device";
+    if (wish.empty()) {
+        if (const char* set = std::getenv("ACTFORMER_DEVICE"); set && *set) {
+            wish = set;
+            from = "ACTFORMER_DEVICE";
+        }
+    }
+    if (wish.empty()) return default_device(devices);
+
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(wish.data(), wish.data() + wish.size(), number);
+    if (error == std::errc() && end == wish.data() + wish.size()) {
+        if (number < devices.size()) return number;
+    } else {
+        const auto text = lower(wish);
+        for (const auto& d : devices)
+            if (lower(d.type) == text) return d.index;
+        for (const auto& d : devices)
+            if (lower(d.name).find(text) != std::string::npos) return d.index;
+    }
+    throw Error("{} {}: no such OpenCL device; there is {}", from, wish, names_of(devices));
+}
+
+Device::Device(std::string_view wish) {
+    const auto devices = raw_devices();
+    info_ = list_devices().at(choose_device(list_devices(), wish));
+    device_ = devices.at(info_.index);
+    try {
+        context_ = cl::Context(device_);
+        queue_ = cl::CommandQueue(context_, device_);
+    } catch (const cl::Error& e) {
+        raise(info_, "opening it", e);
+    }
+    programs_ = std::make_unique<ProgramCache>(context_, device_);
+}
+
+Device::~Device() = default;
+Device::Device(Device&&) noexcept = default;
+Device& Device::operator=(Device&&) noexcept = default;
+
+cl::Kernel Device::kernel(std::string_view file, const std::string& name, const std::string& options) {
+    const auto text = source(file);
+    if (text.empty()) throw Error("no OpenCL source is called {}.cl", file);
+    return kernel_from(text, fmt::format("{}.cl", file), name, options);
+}
+
+cl::Kernel Device::kernel_from(std::string_view text, std::string_view label, const std::string& name,
+                               const std::string& options) {
+    const auto program = programs_->get(text, label, options);
+    try {
+        return {program, name.c_str()};
+    } catch (const cl::Error& e) {
+        raise(info_, fmt::format("making kernel {} of {}", name, label), e);
+    }
+}
+
+void raise(const DeviceInfo& device, std::string_view what, const cl::Error& error) {
+    switch (error.err()) {
+        case CL_MEM_OBJECT_ALLOCATION_FAILURE:
+        case CL_OUT_OF_RESOURCES:
+        case CL_OUT_OF_HOST_MEMORY:
+        case CL_INVALID_BUFFER_SIZE:
+            throw Error("device {} ({}): out of memory {}; choose another with --device", device.index, device.name,
+                        what);
+        default:
+            throw Error("device {} ({}): {} failed: {} says {}", device.index, device.name, what, error.what(),
+                        error.err());
+    }
+}
+
+}  // namespace actformer::kernels

@@ -1,0 +1,10 @@
+# Writes OUT: a C++ file holding the text of every .cl file of the list IN, found by the file's name.
+set(text "// Made from kernels/cl/*.cl by kernels/embed.cmake.\n#include \"kernels/sources.hpp\"\n\n")
+string(APPEND text "namespace actformer::kernels {\n\nstd::string_view source(std::string_view name) {\n")
+foreach(file IN LISTS IN)
+  get_filename_component(name ${file} NAME_WE)
+  file(READ ${file} body)
+  string(APPEND text "    if (name == \"${name}\") return R\"~CL~(${body})~CL~\";\n")
+endforeach()
+string(APPEND text "    return {};\n}\n\n}  // namespace actformer::kernels\n")
+file(WRITE ${OUT} "${text}")

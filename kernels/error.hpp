@@ -1,0 +1,18 @@
+// What the program throws: one line that a user can act on.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace actformer {
+
+/// One clear line naming the file or device, the place in it, and the remedy.
+class Error : public std::runtime_error {
+  public:
+    template <typename... Args>
+    explicit Error(fmt::format_string<Args...> text, Args&&... args)
+        : std::runtime_error(fmt::format(text, std::forward<Args>(args)...)) {}
+};
+
+}  // namespace actformer
