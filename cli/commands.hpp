@@ -1,0 +1,19 @@
+// The commands of `actformer`, one file each.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace actformer::cli {
+
+void add_devices(CLI::App& app);
+void add_synth(CLI::App& app);
+void add_ingest(CLI::App& app);
+void add_inspect(CLI::App& app);
+void add_export(CLI::App& app);
+void add_render(CLI::App& app);
+void add_bench(CLI::App& app);
+
+/// Ends a command's --help with lines that can be typed as they stand.
+inline void examples(CLI::App* command, const std::string& lines) { command->footer("Examples:\n" + lines); }
+
+}  // namespace actformer::cli

@@ -1,0 +1,46 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "cli/commands.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+    CLI::App app{"From raw motion capture to a published table."};
+    app.name("actformer");
+    app.set_version_flag("--version", ACTFORMER_VERSION);
+    app.set_help_all_flag("--help-all", "Help of every command");
+    app.require_subcommand(1);
+    app.get_formatter()->column_width(34);
+
+    using namespace actformer::cli;
+    add_devices(app);
+    add_synth(app);
+    add_ingest(app);
+    add_inspect(app);
+    add_export(app);
+    add_render(app);
+    add_bench(app);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& e) {
+        return app.exit(e);
+    } catch (const CLI::ParseError& e) {
+        fmt::print(stderr, "actformer: {} (see actformer --help)\n", e.what());
+        return 1;
+    }
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& e) {
+        fmt::print(stderr, "actformer: {}\n", e.what());
+        return 1;
+    }
+}
