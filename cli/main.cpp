@@ -16,12 +16,9 @@ int run(int argc, char** argv) {
 
     using namespace actformer::cli;
     add_devices(app);
-    add_synth(app);
     add_ingest(app);
     add_inspect(app);
     add_export(app);
-    add_render(app);
-    add_bench(app);
 
     try {
         app.parse(argc, argv);
