@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstdio>
 
@@ -34,6 +35,11 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // Work goes batch by batch in buffers of the same sizes. Giving them back to the system in between would cost as much
+    // in page faults as reading the data does.
+    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_ARENA_MAX, 1);
     try {
         return run(argc, argv);
     } catch (const std::exception& e) {

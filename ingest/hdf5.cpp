@@ -139,9 +139,9 @@ std::vector<std::string> Reader::read_strings(const std::string& name) const {
     return values;
 }
 
-Writer::Writer() {
+Writer::Writer(std::size_t expected_bytes) {
     silence();
-    constexpr std::size_t step = std::size_t{16} << 20;
+    const std::size_t step = expected_bytes + expected_bytes / 64 + (std::size_t{1} << 20);  // so that it grows once
     const auto access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making a file in memory");
     H5Pset_fapl_core(access.get(), step, false);
     file_ = checked(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose, "making a file in memory");
@@ -159,8 +159,7 @@ bool Writer::finish() {
     return written;
 }
 
-void Writer::write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
-                        hsize_t rows_a_chunk) {
+Handle Writer::create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk) {
     const auto space = checked(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
                                "describing an array");
     const auto layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describing an array");
@@ -173,11 +172,33 @@ void Writer::write_from(const std::string& name, hid_t type, const Shape& shape,
     }
     const auto links = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "describing an array");
     H5Pset_create_intermediate_group(links.get(), 1);
-    const auto set = checked(H5Dcreate2(file_.get(), name.c_str(), type, space.get(), links.get(), layout.get(), H5P_DEFAULT),
-                             H5Dclose, "adding an array");
-    if (H5Sget_simple_extent_npoints(space.get()) > 0 &&
+    return checked(H5Dcreate2(file_.get(), name.c_str(), type, space.get(), links.get(), layout.get(), H5P_DEFAULT), H5Dclose,
+                   "adding an array");
+}
+
+void Writer::write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
+                        hsize_t rows_a_chunk) {
+    const auto set = create(name, type, shape, rows_a_chunk);
+    if (std::find(shape.begin(), shape.end(), 0U) == shape.end() &&
         H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
         throw Error("HDF5: writing '{}' failed; is there space left?", name);
+}
+
+void Writer::write_pieces(const std::string& name, const Shape& shape, const std::vector<std::span<const float>>& pieces,
+                          hsize_t rows_a_chunk) {
+    const auto set = create(name, H5T_NATIVE_FLOAT, shape, rows_a_chunk);
+    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    const auto row = std::accumulate(shape.begin() + 1, shape.end(), hsize_t{1}, std::multiplies<>());
+    Shape start(shape.size(), 0), part = shape;
+    for (const auto& piece : pieces) {
+        part[0] = piece.size() / row;
+        if (part[0] == 0) continue;
+        const Handle memory(H5Screate_simple(static_cast<int>(part.size()), part.data(), nullptr), H5Sclose);
+        H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
+        if (H5Dwrite(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, piece.data()) < 0)
+            throw Error("HDF5: writing '{}' failed; is there enough memory?", name);
+        start[0] += part[0];
+    }
 }
 
 void Writer::write_strings(const std::string& name, const std::vector<std::string>& values) {
@@ -196,14 +217,13 @@ void Writer::attribute(const std::string& name, const std::string& value) {
     H5Awrite(attribute.get(), type.get(), value.data());
 }
 
-std::string Writer::image() {
-    H5Fflush(file_.get(), H5F_SCOPE_GLOBAL);
-    const auto size = H5Fget_file_image(file_.get(), nullptr, 0);
-    if (size < 0) throw Error("HDF5: a file in memory cannot be read back; is there enough memory?");
-    std::string bytes(static_cast<std::size_t>(size), '\0');
-    if (H5Fget_file_image(file_.get(), bytes.data(), bytes.size()) < 0)
+void Writer::image(const std::function<void(std::string_view)>& use) {
+    void* memory = nullptr;  // of the file itself: a copy would cost as much again
+    hsize_t size = 0;
+    if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 || H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &memory) < 0 ||
+        H5Fget_filesize(file_.get(), &size) < 0)
         throw Error("HDF5: a file in memory cannot be read back; is there enough memory?");
-    return bytes;
+    use({*static_cast<const char**>(memory), size});
 }
 
 }  // namespace actformer::ingest::hdf5

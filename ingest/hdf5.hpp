@@ -4,8 +4,10 @@
 #include <hdf5.h>
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace actformer::ingest::hdf5 {
@@ -72,7 +74,7 @@ class Reader {
 /// A new file; the same calls give the same bytes.
 class Writer {
   public:
-    Writer();                                           ///< in memory, for image()
+    explicit Writer(std::size_t expected_bytes);         ///< in memory, for image()
     explicit Writer(const std::filesystem::path& path);  ///< on disk, for finish()
 
     /// `rows_a_chunk` rows of the first axis share a checksummed chunk; 0 stores the array in one piece.
@@ -84,13 +86,18 @@ class Writer {
     void write_strings(const std::string& name, const std::vector<std::string>& values);
     void attribute(const std::string& name, const std::string& value);
 
-    /// The bytes of a file in memory.
-    std::string image();
+    /// A chunked, checksummed array that lies in memory in pieces, each some whole rows of the first axis.
+    void write_pieces(const std::string& name, const Shape& shape, const std::vector<std::span<const float>>& pieces,
+                      hsize_t rows_a_chunk);
+
+    /// Calls `use` with the bytes of a file in memory.
+    void image(const std::function<void(std::string_view)>& use);
 
     /// Closes a file on disk. False where not all of it could be written.
     bool finish();
 
   private:
+    Handle create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk);
     void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values, hsize_t rows_a_chunk);
     Handle file_;
 };

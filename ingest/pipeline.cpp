@@ -263,11 +263,11 @@ class Ingest {
 
     void clean(std::size_t dataset, const std::vector<std::unique_ptr<RawClip>>& raw) {
         std::vector<std::uint32_t> frames;
-        const auto cleaned = format_.clean(device_, dataset, raw, frames);
+        auto cleaned = format_.clean(device_, dataset, raw, frames);
         std::vector<Clip> clips;
         for (std::size_t i = 0; i < raw.size(); ++i)
             clips.push_back({raw[i]->name, raw[i]->label, 0, 0, frames[i], raw[i]->fields});
-        shards_[dataset].add(clips, cleaned);
+        shards_[dataset].add(clips, std::move(cleaned));
     }
 
     /// Ends a tranche: its shards go to disk, then it is noted down.
@@ -276,11 +276,12 @@ class Ingest {
         for (std::size_t d = 0; d < shards_.size(); ++d) {
             if (shards_[d].empty()) continue;
             const auto file = folder_of(d) / shard_name(shard_count_[d]++);
-            const auto image = shards_[d].image(format_.settings(), fingerprint_);
             fs::create_directories((workplace.data() / file).parent_path());
-            write_whole(workplace.data() / file, image);
-            tranche_.shards.emplace_back(
-                d, ShardEntry{file.string(), checksum(image), image.size(), shards_[d].clips(), shards_[d].frames()});
+            shards_[d].image(format_.settings(), fingerprint_, [&](std::string_view image) {
+                write_whole(workplace.data() / file, image);
+                tranche_.shards.emplace_back(
+                    d, ShardEntry{file.string(), checksum(image), image.size(), shards_[d].clips(), shards_[d].frames()});
+            });
             shards_[d] = ShardBuilder(format_.datasets()[d]);
         }
         tranche_.fingerprint = fingerprint_;

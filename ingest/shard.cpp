@@ -19,24 +19,30 @@ std::vector<T> column(const std::vector<Clip>& clips, Of of) {
 
 }  // namespace
 
-void ShardBuilder::add(const std::vector<Clip>& clips, const kernels::CleanedBatch& cleaned) {
+void ShardBuilder::add(const std::vector<Clip>& clips, kernels::CleanedBatch cleaned) {
     for (auto clip : clips) {
         clip.offset = frames_;
         frames_ += clip.frames;
         clips_.push_back(std::move(clip));
     }
-    motion_.insert(motion_.end(), cleaned.motion.begin(), cleaned.motion.end());
-    bones_.insert(bones_.end(), cleaned.bone_length.begin(), cleaned.bone_length.end());
+    pieces_.push_back(std::move(cleaned));
 }
 
-std::string ShardBuilder::image(const std::string& settings, const std::string& fingerprint) const {
+void ShardBuilder::image(const std::string& settings, const std::string& fingerprint,
+                         const std::function<void(std::string_view)>& use) const {
+    std::vector<std::span<const float>> motion;
+    std::vector<float> bones;
+    for (const auto& piece : pieces_) {
+        motion.emplace_back(piece.motion);
+        bones.insert(bones.end(), piece.bone_length.begin(), piece.bone_length.end());
+    }
     const hsize_t n = clips_.size(), p = header_->persons, k = header_->topology.joints();
-    hdf5::Writer file;
+    hdf5::Writer file(frames_ * p * k * 3 * sizeof(float));
     file.attribute("program", "actformer " ACTFORMER_VERSION);
     file.attribute("dataset", header_->name);
     file.attribute("settings", settings);
     file.attribute("source", fingerprint);
-    file.write<float>("motion", {frames_, p, k, 3}, motion_, frames_a_chunk);
+    file.write_pieces("motion", {frames_, p, k, 3}, motion, frames_a_chunk);
     file.write<std::uint64_t>("clip/offset", {n}, column<std::uint64_t>(clips_, [](auto& c) { return c.offset; }));
     file.write<std::uint32_t>("clip/length", {n}, column<std::uint32_t>(clips_, [](auto& c) { return c.frames; }));
     file.write<std::uint32_t>("clip/label", {n}, column<std::uint32_t>(clips_, [](auto& c) { return c.label; }));
@@ -44,8 +50,8 @@ std::string ShardBuilder::image(const std::string& settings, const std::string& 
     for (std::size_t f = 0; f < header_->fields.size(); ++f)
         file.write_strings("clip/" + header_->fields[f],
                            column<std::string>(clips_, [f](auto& c) { return c.fields[f]; }));
-    file.write<float>("clip/bone_length", {n, p, k}, bones_);
-    return file.image();
+    file.write<float>("clip/bone_length", {n, p, k}, bones);
+    file.image(use);
 }
 
 std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHeader& header, std::uint32_t shard) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,19 +25,20 @@ class ShardBuilder {
     explicit ShardBuilder(const DatasetHeader& header) : header_(&header) {}
 
     /// Clips in order; cleaned.motion holds their frames one after the other.
-    void add(const std::vector<Clip>& clips, const kernels::CleanedBatch& cleaned);
+    void add(const std::vector<Clip>& clips, kernels::CleanedBatch cleaned);
 
     std::size_t clips() const { return clips_.size(); }
     std::uint64_t frames() const { return frames_; }
     bool empty() const { return clips_.empty(); }
 
-    /// The file's bytes, marked with what it was made from.
-    std::string image(const std::string& settings, const std::string& fingerprint) const;
+    /// Calls `use` with the file's bytes, marked with what it was made from.
+    void image(const std::string& settings, const std::string& fingerprint,
+               const std::function<void(std::string_view)>& use) const;
 
   private:
     const DatasetHeader* header_;
     std::vector<Clip> clips_;
-    std::vector<float> motion_, bones_;
+    std::vector<kernels::CleanedBatch> pieces_;  ///< as they came: joining them would copy most of the shard
     std::uint64_t frames_ = 0;
 };
 
