@@ -200,6 +200,7 @@ class Reader {
 
 std::variant<SkeletonFile, Rejection> read_skeleton(std::string_view text) {
     text = without_bom(text);
+    if (text.empty()) return Rejection{Rejection::Kind::broken, "an empty file"};
     try {
         return Reader(text).read();
     } catch (const Error& e) {
