@@ -134,11 +134,8 @@ Buffer<float> forward_kinematics(Device& device, std::span<const KinematicClip> 
     const Buffer<std::uint64_t> value_first(device, layout.value_first);
     const Buffer<float> transforms(device, std::size_t{layout.slots} * 12 * total);
     Buffer<float> limbs(device, total * layout.limbs * 3);
-    // A round number of work-items: drivers cut ranges into equal groups, and would find none in a prime
-    // number.
-    const std::size_t range = (total + 255) / 256 * 256;
-    launch(device, device.kernel("forward_kinematics", "forward_kinematics"), cl::NDRange(range), values,
-           joints, joint_first, frame_first, value_first, static_cast<std::uint32_t>(clips.size()),
+    launch(device, device.kernel("forward_kinematics", "forward_kinematics"), {total, 1}, values, joints,
+           joint_first, frame_first, value_first, static_cast<std::uint32_t>(clips.size()),
            static_cast<std::uint32_t>(total), layout.limbs, metres_per_unit, transforms, limbs);
     return limbs;
 }
