@@ -33,9 +33,11 @@ bool is_placeholder(const BvhJoint& joint) {
     return std::all_of(joint.offset.begin(), joint.offset.end(), [](double o) { return o == 0; });
 }
 
-std::string end_name(const Topology& topology, const std::string& parent) {
+/// A name that neither a joint of the file nor an end site before has.
+std::string end_name(const BvhFile& file, const Topology& topology, const std::string& parent) {
     const auto taken = [&](const std::string& name) {
-        return std::find(topology.names.begin(), topology.names.end(), name) != topology.names.end();
+        return find_joint(file, name) >= 0 ||
+               std::find(topology.names.begin(), topology.names.end(), name) != topology.names.end();
     };
     std::string name = parent + " end";
     for (int i = 2; taken(name); ++i) name = fmt::format("{} end {}", parent, i);
@@ -77,7 +79,7 @@ Skeleton skeleton_below(const BvhFile& file, std::size_t root, bool end_sites) {
         const int parent = j == root ? -1 : index[joint.parent];
         out.kept[j] = true;
         index[j] = static_cast<int>(out.topology.joints());
-        out.topology.names.push_back(joint.end_site ? end_name(out.topology, out.topology.names[parent])
+        out.topology.names.push_back(joint.end_site ? end_name(file, out.topology, out.topology.names[parent])
                                                     : joint.name);
         out.topology.parents.push_back(parent);
     }

@@ -104,6 +104,11 @@ TEST(BvhSkeleton, EndSitesBecomeJointsWhereWanted) {
     EXPECT_EQ(skeleton_below(file, 1, false).topology, (Topology{{"Hips", "Knee", "Foot"}, {-1, 0, 1}}));
     EXPECT_EQ(skeleton_below(file, 2, true).topology,
               (Topology{{"Knee", "Foot", "Foot end", "Foot end 2"}, {-1, 0, 1, 1}}));
+    // A joint's own name comes first, wherever it stands.
+    const auto later = file_of(
+        replaced(walk, "OFFSET 0 0 0\n}\n}", "OFFSET 0 0 0\n}\nJOINT Foot end\n{\nOFFSET 1 0 0\n}\n}"));
+    EXPECT_EQ(skeleton_below(later, 3, true).topology.names,
+              (Names{"Foot", "Foot end 2", "Foot end 3", "Foot end"}));
     EXPECT_EQ(find_joint(file, "Foot"), 3);
     EXPECT_EQ(find_joint(file, ""), -1);
 }
