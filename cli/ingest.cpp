@@ -86,6 +86,7 @@ void add_ingest(CLI::App& app) {
     auto* command = app.add_subcommand("ingest", "Clean raw motion capture and write it as checksummed HDF5 shards");
     command->require_subcommand(1);
     add_ingest_ntu(*command);
+    add_ingest_bvh(*command);
 }
 
 }  // namespace actformer::cli

@@ -11,6 +11,7 @@
 #include "ingest/parallel.hpp"
 #include "ingest/shard.hpp"
 #include "ingest/source.hpp"
+#include "ingest/text/printable.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest {
@@ -69,14 +70,6 @@ class Groups {
     bool have_ahead_ = false;
     std::uint64_t tranche_files_ = 0, tranche_bytes_ = 0;
 };
-
-/// Text that is safe in a CSV file, a JSON string and on a terminal.
-std::string printable(std::string text) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = '?';
-    return nlohmann::json::parse(nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
-        .get<std::string>();
-}
 
 std::string csv_field(const std::string& text) {
     if (text.find_first_of(",\"") == std::string::npos) return text;

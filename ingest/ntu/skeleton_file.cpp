@@ -8,6 +8,7 @@
 
 #include "ingest/text/lines.hpp"
 #include "ingest/text/number.hpp"
+#include "ingest/text/printable.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest {
@@ -102,7 +103,7 @@ class Reader {
     std::string_view token() const {
         const char* stop = at_;
         while (stop < end_ && static_cast<unsigned char>(*stop) > ' ') ++stop;
-        return {at_, static_cast<std::size_t>(std::min<std::ptrdiff_t>(stop - at_, 40))};
+        return {at_, static_cast<std::size_t>(stop - at_)};
     }
 
     std::uint64_t count(std::string_view what) {
@@ -110,7 +111,7 @@ class Reader {
         std::uint64_t value = 0;
         const auto [stop, error] = std::from_chars(at_, end_, value);
         if (error != std::errc() || (stop < end_ && static_cast<unsigned char>(*stop) > ' '))
-            fail("'{}' where the number of {} should be", printable(token()), what);
+            fail("{} where the number of {} should be", in_quotes(token()), what);
         at_ = stop;
         end_line(1, 1);
         return value;
@@ -144,7 +145,7 @@ class Reader {
             at_ = skip_blanks(at_, end_);
             const char* stop = at_ < end_ ? parse_number(at_, value) : nullptr;
             if (!stop || static_cast<unsigned char>(*stop) > ' ' || !(std::abs(value) < farthest))
-                fail("'{}' where a coordinate in metres should be", printable(token()));
+                fail("{} where a coordinate in metres should be", in_quotes(token()));
             at_ = stop;
         }
         end_line(3, joint_fields);
@@ -179,14 +180,6 @@ class Reader {
             if (fields) fail("text after the last frame that line 1 counts");
             ++at_;
         }
-    }
-
-    /// Hostile bytes do not reach a terminal or a CSV file.
-    static std::string printable(std::string_view text) {
-        std::string out(text);
-        for (char& c : out)
-            if (c < ' ' || c > '~') c = '?';
-        return out;
     }
 
     const char* at_;

@@ -1,14 +1,14 @@
 // Forward kinematics of many ragged clips: channel values in, limbs out. One work-item a frame; those past
 // the last do nothing.
 //
-//   values      float  per clip (channels, frames): clip c's value of channel i at its frame f lies at
-//                      value_first[c] + i * frames(c) + f, so that neighbouring work-items read neighbouring
-//                      addresses
-//   joints      Joint  clip c owns joints joint_first[c] .. joint_first[c+1]-1, depth first, each after its
-//   parent joint_first uint   (clips + 1) frame_first uint   (clips + 1): clip c owns frames, frame_first[c]
-//   .. frame_first[c+1]-1 value_first ulong  (clips) transforms  float  (slots, 12, total frames): scratch; a
-//   transform is the matrix by columns, then a vector limbs       float  (total frames, K, 3): joint 0 the
-//   root's position, joint k the vector from k's kept parent to k
+//   values       float  per clip (channels, frames): clip c's value of channel i at its frame f lies at
+//                       value_first[c] + i * frames(c) + f, so that neighbouring work-items read neighbouring addresses
+//   joints       Joint  clip c owns joints joint_first[c] .. joint_first[c+1]-1, depth first, each after its parent
+//   joint_first  uint   (clips + 1)
+//   frame_first  uint   (clips + 1)  clip c owns frames frame_first[c] .. frame_first[c+1]-1
+//   value_first  ulong  (clips)
+//   transforms   float  (slots, 12, total frames)  scratch; a transform is the matrix by columns, then a vector
+//   limbs        float  (total frames, K, 3)  joint 0 the root's position, joint k the vector from k's kept parent to k
 //
 // A joint's place in its parent is its OFFSET, where each position channel takes the place of its coordinate.
 // Its matrix is its parent's times the rotations in the order of its channels. The vector carried along the
@@ -24,8 +24,7 @@ typedef struct {
     uint channels;
     uint channel_count;
     uint first_channel;
-    int load;  // slot of the parent's transform; KEPT_IN_REGISTERS where the parent is the joint before;
-               // NO_PARENT
+    int load;  // slot of the parent's transform, or one of the two below
     int save;  // slot for this joint's own transform, negative for none
     int limb;  // which of the K it is, negative where it is not kept
 } Joint;
