@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -99,10 +100,9 @@ std::vector<std::size_t> picks_of(const ingest::Dataset& dataset, const Options&
     const auto where = dataset.folder().string();
     std::vector<Candidate> candidates;
     for (const auto i : dataset.split(options.split)) candidates.push_back({i, dataset.clips()[i].label});
-    candidates = of_class(std::move(candidates), options, dataset.header().classes, where);
     if (candidates.empty())
         throw Error("{}: split '{}' is empty, so there is nothing to draw", where, options.split);
-    return spread(candidates, count);
+    return spread(of_class(std::move(candidates), options, dataset.header().classes, where), count);
 }
 
 Figure figure_of(const ingest::Dataset& dataset, std::size_t clip) {
@@ -112,26 +112,37 @@ Figure figure_of(const ingest::Dataset& dataset, std::size_t clip) {
                               title_of(entry.name, entry.label, header.classes));
 }
 
-std::vector<Figure> figures_of_datasets(const fs::path& path, const Options& options) {
+std::vector<Figure> figures_by_name(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
+                                    const std::vector<std::string>& names) {
     std::vector<Figure> figures;
-    const auto folders = ingest::datasets_at(path);
-    if (!options.clips.empty()) {
-        std::vector<ingest::Dataset> datasets(folders.begin(), folders.end());
-        for (const auto& name : options.clips) {
-            const auto before = figures.size();
-            for (const auto& dataset : datasets)
-                if (const auto clip = dataset.find(name)) figures.push_back(figure_of(dataset, *clip));
-            if (figures.size() == before)
-                throw Error("{} has no clip '{}'; its clips are called as in '{}'", path.string(), name,
-                            datasets[0].clips().empty() ? "" : datasets[0].clips()[0].name);
-        }
-        return figures;
+    for (const auto& name : names) {
+        const auto before = figures.size();
+        for (const auto& dataset : datasets)
+            if (const auto clip = dataset.find(name)) figures.push_back(figure_of(dataset, *clip));
+        if (figures.size() == before)
+            throw Error("{} has no clip '{}'; its clips are called as in '{}'", path.string(), name,
+                        datasets[0].clips().empty() ? "" : datasets[0].clips()[0].name);
     }
-    for (std::size_t d = 0; d < folders.size(); ++d) {
-        const auto count = options.count * (d + 1) / folders.size() - options.count * d / folders.size();
+    return figures;
+}
+
+std::vector<Figure> figures_of_datasets(const fs::path& path, const Options& options) {
+    const auto folders = ingest::datasets_at(path);
+    std::vector<ingest::Dataset> datasets(folders.begin(), folders.end());
+    if (!options.clips.empty()) return figures_by_name(datasets, path, options.clips);
+
+    // A class by name may be in one of the datasets of a folder only, as handshaking is in ntu-2p.
+    const auto named = [&](const ingest::Dataset& d) {
+        return std::ranges::count(d.header().classes, options.label) > 0;
+    };
+    if (std::ranges::any_of(datasets, named)) std::erase_if(datasets, std::not_fn(named));
+
+    std::vector<Figure> figures;
+    for (std::size_t d = 0; d < datasets.size(); ++d) {
+        const auto count = options.count * (d + 1) / datasets.size() - options.count * d / datasets.size();
         if (count == 0) continue;
-        const ingest::Dataset dataset(folders[d]);
-        for (const auto clip : picks_of(dataset, options, count)) figures.push_back(figure_of(dataset, clip));
+        for (const auto clip : picks_of(datasets[d], options, count))
+            figures.push_back(figure_of(datasets[d], clip));
     }
     return figures;
 }
@@ -246,6 +257,9 @@ std::vector<Figure> figures_of(const fs::path& path, const Options& options) {
 
 void render(const Options& options) {
     const auto kind = reports::picture_kind(options.output);
+    {
+        const reports::Aside probe(options.output);
+    }  // what cannot be written is said before the work, not after
     reports::Layout layout;
     layout.view = reports::parse_view(options.view);
     layout.columns = options.columns;

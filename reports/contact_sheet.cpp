@@ -45,7 +45,8 @@ cv::Size limited(std::int64_t width, std::int64_t height) {
     constexpr std::int64_t most = 16384;
     if (width > most || height > most)
         throw Error(
-            "the picture would be {} x {} pixels, more than {}; choose a smaller --size or fewer motions",
+            "the picture would be {} x {} pixels, more than {}; choose a smaller --size, fewer --columns or "
+            "fewer motions",
             width, height, most);
     return {static_cast<int>(width), static_cast<int>(height)};
 }

@@ -18,9 +18,9 @@ cv::Vec3d point(const Figure& figure, std::size_t frame, std::size_t person, std
     return {x[0], x[1], x[2]};
 }
 
-const Figure& checked(const Figure& figure) {
+Figure body_of(const Figure& figure) {
     check(figure);
-    return figure;
+    return without_anchor(figure);
 }
 
 /// The joint of the head that lies furthest from the root among those that are not mere end sites; -1 without
@@ -98,13 +98,13 @@ void tint(cv::Vec3b& pixel, const cv::Vec3f& colour, double strength) {
 }  // namespace
 
 Stage::Stage(const Figure& figure, const View& view, int samples)
-    : figure_(checked(figure)),
-      framing_(figure, view),
+    : figure_(body_of(figure)),
+      framing_(figure_, view),
       samples_(samples),
-      sides_(sides_of(figure.topology)),
-      head_(head_joint(figure.topology)),
-      crown_(crown_joint(figure.topology, head_)),
-      radius_(joint_radii(figure, framing_.reach())) {
+      sides_(sides_of(figure_.topology)),
+      head_(head_joint(figure_.topology)),
+      crown_(crown_joint(figure_.topology, head_)),
+      radius_(joint_radii(figure_, framing_.reach())) {
     has_sides_ = std::ranges::count(sides_, Side::left) > 0 && std::ranges::count(sides_, Side::right) > 0;
 }
 

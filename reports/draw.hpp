@@ -10,7 +10,7 @@
 
 namespace actformer::reports {
 
-/// Draws the frames of one figure. Keeps a reference to it. Drawing is safe from many threads at once.
+/// Draws the frames of one figure. Drawing is safe from many threads at once.
 class Stage {
   public:
     /// Throws Error as check(figure) does. `samples` x `samples` decide each pixel of a body.
@@ -32,7 +32,7 @@ class Stage {
     void draw_floor(cv::Mat& cell, const Camera& camera) const;
     void draw_shadow(cv::Mat& cell, const Camera& camera, std::size_t frame) const;
 
-    const Figure& figure_;
+    Figure figure_;  ///< without_anchor()
     Framing framing_;
     int samples_;
     bool has_sides_ = false;

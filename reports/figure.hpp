@@ -40,6 +40,11 @@ void check(const Figure& figure);
 Figure figure_of(const ingest::Motion& motion, const ingest::Topology& topology,
                  const std::vector<float>& bone_length, double fps, std::string title);
 
+/// `figure` without a root that is no part of the body: many BVH files hang the hips on a joint that stays on
+/// the ground where the capture began. It has one child, which branches, and it does not move or its limb is
+/// not of one length.
+Figure without_anchor(Figure figure);
+
 /// (K) lengths in metres to draw a body whose own are unknown: an adult's for NTU's 25 joints, else 0.2 each;
 /// the root's is 0.
 std::vector<float> usual_bone_lengths(const ingest::Topology& topology);
