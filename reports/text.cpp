@@ -120,15 +120,21 @@ void Typeface::draw(cv::Mat& picture, const std::string& text, cv::Point at, int
         return;
     }
 #endif
-    cv::Mat large(picture.rows * stroke_zoom, picture.cols * stroke_zoom, CV_8U, cv::Scalar(0)), cover;
-    cv::putText(large, ascii(text), at * stroke_zoom, stroke_font, stroke_scale(size), 255, bold_ ? 6 : 4,
-                cv::LINE_AA);
-    cv::resize(large, cover, picture.size(), 0, 0, cv::INTER_AREA);
+    int baseline = 0;
+    const int thickness = bold_ ? 6 : 4;
+    const auto strokes = cv::getTextSize(ascii(text), stroke_font, stroke_scale(size), thickness, &baseline);
+    const cv::Rect place(at.x - size, at.y - 2 * size, strokes.width / stroke_zoom + 2 * size, 3 * size);
+    const cv::Rect area = place & cv::Rect({0, 0}, picture.size());
+    if (area.empty()) return;
+    cv::Mat large(area.height * stroke_zoom, area.width * stroke_zoom, CV_8U, cv::Scalar(0)), cover;
+    cv::putText(large, ascii(text), (at - area.tl()) * stroke_zoom, stroke_font, stroke_scale(size), 255,
+                thickness, cv::LINE_AA);
+    cv::resize(large, cover, area.size(), 0, 0, cv::INTER_AREA);
     const auto colour = style::vec(rgb);
-    for (int y = 0; y < picture.rows; ++y)
-        for (int x = 0; x < picture.cols; ++x)
+    for (int y = 0; y < area.height; ++y)
+        for (int x = 0; x < area.width; ++x)
             if (const float c = static_cast<float>(cover.at<std::uint8_t>(y, x)) / 255; c > 0) {
-                auto& pixel = picture.at<cv::Vec3b>(y, x);
+                auto& pixel = picture.at<cv::Vec3b>(area.y + y, area.x + x);
                 for (int i = 0; i < 3; ++i)
                     pixel[i] = cv::saturate_cast<std::uint8_t>(static_cast<float>(pixel[i]) * (1 - c) +
                                                                colour[i] * c);
