@@ -20,6 +20,7 @@ int run(int argc, char** argv) {
     add_ingest(app);
     add_inspect(app);
     add_export(app);
+    add_render(app);
 
     try {
         app.parse(argc, argv);

@@ -139,6 +139,18 @@ std::vector<std::string> Reader::read_strings(const std::string& name) const {
     return values;
 }
 
+std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {
+    if (H5Aexists(file_.get(), name.c_str()) <= 0) throw Error("{}: has no attribute '{}'", path_.string(), name);
+    const Handle attribute(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
+    const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
+    if (!type || H5Tget_class(type.get()) != H5T_INTEGER || !space)
+        throw Error("{}: attribute '{}' holds no whole numbers", path_.string(), name);
+    std::vector<std::int64_t> values(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
+    if (!values.empty() && H5Aread(attribute.get(), H5T_NATIVE_INT64, values.data()) < 0)
+        throw Error("{}: attribute '{}' cannot be read: damaged", path_.string(), name);
+    return values;
+}
+
 Writer::Writer(std::size_t expected_bytes) {
     silence();
     const std::size_t step = expected_bytes + expected_bytes / 64 + (std::size_t{1} << 20);  // so that it grows once
@@ -209,12 +221,23 @@ void Writer::write_strings(const std::string& name, const std::vector<std::strin
     write_from(name, string_type(size).get(), {values.size()}, packed.data(), 0);
 }
 
-void Writer::attribute(const std::string& name, const std::string& value) {
-    const auto type = string_type(value.size());
-    const auto space = checked(H5Screate(H5S_SCALAR), H5Sclose, "adding an attribute");
-    const auto attribute = checked(H5Acreate2(file_.get(), name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT),
+void Writer::attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value) {
+    const auto attribute = checked(H5Acreate2(file_.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
                                    H5Aclose, "adding an attribute");
-    H5Awrite(attribute.get(), type.get(), value.data());
+    H5Awrite(attribute.get(), type, value);
+}
+
+void Writer::attribute(const std::string& name, const std::string& value) {
+    attribute_from(name, string_type(value.size()).get(), Handle(H5Screate(H5S_SCALAR), H5Sclose), value.data());
+}
+
+void Writer::attribute(const std::string& name, std::int64_t value) {
+    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate(H5S_SCALAR), H5Sclose), &value);
+}
+
+void Writer::attribute(const std::string& name, const std::vector<std::int64_t>& values) {
+    const hsize_t count = values.size();
+    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose), values.data());
 }
 
 void Writer::image(const std::function<void(std::string_view)>& use) {

@@ -62,6 +62,9 @@ class Reader {
 
     std::vector<std::string> read_strings(const std::string& name) const;
 
+    /// Whole numbers in an attribute of the root group, one or many.
+    std::vector<std::int64_t> attribute_numbers(const std::string& name) const;
+
   private:
     static std::size_t elements(const Shape& shape);
     Handle open(const std::string& name) const;
@@ -85,6 +88,8 @@ class Writer {
 
     void write_strings(const std::string& name, const std::vector<std::string>& values);
     void attribute(const std::string& name, const std::string& value);
+    void attribute(const std::string& name, std::int64_t value);
+    void attribute(const std::string& name, const std::vector<std::int64_t>& values);
 
     /// A chunked, checksummed array that lies in memory in pieces, each some whole rows of the first axis.
     void write_pieces(const std::string& name, const Shape& shape, const std::vector<std::span<const float>>& pieces,
@@ -97,6 +102,7 @@ class Writer {
     bool finish();
 
   private:
+    void attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value);
     Handle create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk);
     void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values, hsize_t rows_a_chunk);
     Handle file_;

@@ -20,7 +20,7 @@ cv::Vec3d point(const Figure& figure, std::size_t frame, std::size_t person, std
 
 Figure body_of(const Figure& figure) {
     check(figure);
-    return without_anchor(figure);
+    return figure;
 }
 
 /// The joint of the head that lies furthest from the root among those that are not mere end sites; -1 without

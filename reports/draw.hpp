@@ -32,7 +32,7 @@ class Stage {
     void draw_floor(cv::Mat& cell, const Camera& camera) const;
     void draw_shadow(cv::Mat& cell, const Camera& camera, std::size_t frame) const;
 
-    Figure figure_;  ///< without_anchor()
+    Figure figure_;
     Framing framing_;
     int samples_;
     bool has_sides_ = false;

@@ -30,62 +30,7 @@ void check_joints(const Figure& figure) {
         }
 }
 
-/// The only child of the root where that branches in turn; 0 otherwise.
-std::size_t hips_below_root(const ingest::Topology& topology) {
-    const auto children = [&](int joint) { return std::ranges::count(topology.parents, joint); };
-    if (children(0) != 1) return 0;
-    const auto child = std::ranges::find(topology.parents, 0) - topology.parents.begin();
-    return children(static_cast<int>(child)) > 1 ? static_cast<std::size_t>(child) : 0;
-}
-
-/// The root of every person stays where it is, or the way from it to `hips` changes by more than a fifth.
-bool is_anchor(const Figure& figure, std::size_t hips) {
-    bool moves = false, stretches = false;
-    for (std::size_t p = 0; p < figure.persons; ++p) {
-        const float* first = nullptr;
-        float shortest = 1e9F, longest = 0;
-        for (std::size_t t = 0; t < figure.frames; ++t) {
-            if (!figure.visible(t, p)) continue;
-            const float *root = figure.at(t, p, 0), *child = figure.at(t, p, hips);
-            if (first == nullptr) first = root;
-            for (int d = 0; d < 3; ++d) moves = moves || std::abs(root[d] - first[d]) > 1e-3F;
-            const float length = std::hypot(child[0] - root[0], child[1] - root[1], child[2] - root[2]);
-            shortest = std::min(shortest, length);
-            longest = std::max(longest, length);
-        }
-        stretches = stretches || longest > 1.2F * shortest + 1e-3F;
-    }
-    return stretches || !moves;
-}
-
-/// `figure` with joint `hips` in the root's place.
-Figure rooted_at(const Figure& figure, std::size_t hips) {
-    const auto k = figure.topology.joints();
-    std::vector<std::size_t> kept{hips};
-    for (std::size_t j = 1; j < k; ++j)
-        if (j != hips) kept.push_back(j);
-    Figure out{figure.title, {}, figure.persons, figure.frames, figure.fps, {}, figure.seen};
-    for (const auto j : kept) {
-        const auto parent = std::ranges::find(kept, static_cast<std::size_t>(figure.topology.parents[j]));
-        out.topology.names.push_back(figure.topology.names[j]);
-        out.topology.parents.push_back(j == hips ? -1 : static_cast<int>(parent - kept.begin()));
-    }
-    out.joints.reserve(figure.joints.size());
-    for (std::size_t t = 0; t < figure.frames; ++t)
-        for (std::size_t p = 0; p < figure.persons; ++p)
-            for (const auto j : kept)
-                out.joints.insert(out.joints.end(), figure.at(t, p, j), figure.at(t, p, j) + 3);
-    return out;
-}
-
 }  // namespace
-
-Figure without_anchor(Figure figure) {
-    for (auto hips = hips_below_root(figure.topology); hips > 0 && is_anchor(figure, hips);
-         hips = hips_below_root(figure.topology))
-        figure = rooted_at(figure, hips);
-    return figure;
-}
 
 void check(const Figure& figure) {
     const auto name = called(figure);
@@ -119,6 +64,27 @@ Figure figure_of(const ingest::Motion& motion, const ingest::Topology& topology,
                     motion.persons, motion.joints);
     Figure figure{std::move(title), topology, motion.persons, motion.frames, fps, {}, {}};
     figure.joints = ingest::joint_positions(motion, topology, bone_length);
+    check(figure);
+    return figure;
+}
+
+Figure figure_of(const ingest::SkeletonFile& file, std::string title) {
+    const auto& topology = ingest::ntu25();
+    const auto persons = static_cast<std::uint32_t>(file.bodies.size()), k = static_cast<std::uint32_t>(topology.joints());
+    const std::size_t bodies = std::size_t{file.frames} * persons;
+    Figure figure{std::move(title), topology, persons, file.frames, 30, {}, std::vector<std::uint8_t>(bodies, 0)};
+    figure.joints.resize(bodies * k * 3);
+    const std::vector<float> whole(k, 1.0F);  // raw limbs have their lengths still
+    for (std::uint32_t p = 0; p < persons; ++p) {
+        const auto& body = file.bodies[p];
+        const ingest::Motion motion{"", static_cast<std::uint32_t>(body.times.size()), 1, k, body.limbs};
+        const auto joints = ingest::joint_positions(motion, topology, whole);
+        for (std::size_t i = 0; i < body.times.size(); ++i) {
+            const std::size_t at = std::size_t{body.times[i]} * persons + p;
+            figure.seen[at] = 1;
+            std::copy_n(&joints[i * k * 3], k * 3, &figure.joints[at * k * 3]);
+        }
+    }
     check(figure);
     return figure;
 }

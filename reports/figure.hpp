@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ingest/motion.hpp"
+#include "ingest/ntu/skeleton_file.hpp"
 #include "ingest/topology.hpp"
 
 namespace actformer::reports {
@@ -40,10 +41,8 @@ void check(const Figure& figure);
 Figure figure_of(const ingest::Motion& motion, const ingest::Topology& topology,
                  const std::vector<float>& bone_length, double fps, std::string title);
 
-/// `figure` without a root that is no part of the body: many BVH files hang the hips on a joint that stays on
-/// the ground where the capture began. It has one child, which branches, and it does not move or its limb is
-/// not of one length.
-Figure without_anchor(Figure figure);
+/// A raw capture, every body in it a person that is seen in some frames. Throws Error as check() does.
+Figure figure_of(const ingest::SkeletonFile& file, std::string title);
 
 /// (K) lengths in metres to draw a body whose own are unknown: an adult's for NTU's 25 joints, else 0.2 each;
 /// the root's is 0.

@@ -80,20 +80,6 @@ TEST(Figure, ComesFromLimbs) {
               std::string::npos);
 }
 
-TEST(Figure, LosesAnAnchorOnTheGround) {
-    const ingest::Topology with{{"origin", "left leg", "hips", "right leg"}, {-1, 2, 0, 2}};
-    const Figure walked{
-        "", with, 1, 2, 30, {0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, 1, 0, 3, 0, 1, 3, -1, 0, 3}, {}};
-    const auto body = without_anchor(walked);
-    EXPECT_EQ(body.topology, (ingest::Topology{{"hips", "left leg", "right leg"}, {-1, 0, 0}}));
-    EXPECT_EQ(body.joints, (std::vector<float>{0, 1, 0, 1, 0, 0, -1, 0, 0, 0, 1, 3, 1, 0, 3, -1, 0, 3}));
-
-    auto carried = walked;  // a root that goes along at a fixed distance is part of the body
-    carried.joints[12 + 2] = 3;
-    EXPECT_EQ(without_anchor(carried).topology, with);
-    EXPECT_EQ(without_anchor(walkers(1, 3)).topology, ingest::ntu25());
-}
-
 TEST(Figure, UsualLengthsFitTheSkeleton) {
     const auto adult = usual_bone_lengths(ingest::ntu25());
     ASSERT_EQ(adult.size(), 25U);
