@@ -1,0 +1,281 @@
+#include "ingest/synth/ntu/pose.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace actformer::ingest::synth {
+namespace {
+
+constexpr std::array<Joint, 2> shoulder_of{left_shoulder, right_shoulder}, elbow_of{left_elbow, right_elbow},
+    wrist_of{left_wrist, right_wrist}, hand_of{left_hand, right_hand}, tip_of{left_tip, right_tip},
+    thumb_of{left_thumb, right_thumb}, hip_of{left_hip, right_hip}, knee_of{left_knee, right_knee},
+    ankle_of{left_ankle, right_ankle}, foot_of{left_foot, right_foot};
+
+/// Left is +x: what lies outwards on side `s`.
+constexpr double outwards(int s) {
+    return s == 0 ? 1 : -1;
+}
+
+struct Limb {
+    Vec middle, end;
+};
+
+/// Two bones from `root` towards `target`, bent towards `pole`, the inner angle at least `least` degrees.
+Limb two_bones(const Vec& root, const Vec& target, double upper, double lower, const Vec& pole,
+               double least) {
+    const double shortest =
+        std::sqrt(upper * upper + lower * lower - 2 * upper * lower * std::cos(radians(least)));
+    const double d = std::clamp(length(target - root), shortest, 0.9985 * (upper + lower));
+    const Vec axis = normalised(target - root);
+    const double along = (upper * upper - lower * lower + d * d) / (2 * d);
+    const double off = std::sqrt(std::max(0.0, upper * upper - along * along));
+    return {root + axis * along + normalised(reject(pole, axis)) * off, root + axis * d};
+}
+
+/// The smaller of two, without a corner.
+double soft_min(double a, double b) {
+    constexpr double k = 0.012;
+    const double h = std::clamp(0.5 + 0.5 * (a - b) / k, 0.0, 1.0);
+    return a + (b - a) * h - k * h * (1 - h);
+}
+
+/// How high the pelvis can be with both planted feet in reach.
+double reachable(const Body& body, const Vec& pelvis_at, const Rotation& hips,
+                 const std::array<Foot, 2>& feet, double wanted) {
+    for (int s = 0; s < 2; ++s) {
+        if (!feet[s].planted) continue;
+        const Vec offset = hips * Vec{outwards(s) * body.hip, -body.hip_drop, 0};
+        const double dx = pelvis_at.x + offset.x - feet[s].place.x,
+                     dz = pelvis_at.z + offset.z - feet[s].place.z;
+        const double reach2 = std::pow(0.996 * body.leg(), 2) - dx * dx - dz * dz;
+        const double top = body.ankle + feet[s].place.y + std::sqrt(std::max(0.04, reach2)) - offset.y;
+        wanted = soft_min(wanted, top);
+    }
+    return wanted;
+}
+
+void legs(Figure& f, const Body& body, const std::array<Foot, 2>& feet) {
+    for (int s = 0; s < 2; ++s) {
+        const Vec hip = f.at[pelvis] + f.hips * Vec{outwards(s) * body.hip, -body.hip_drop, 0};
+        const Rotation foot = about_y(feet[s].heading);
+        Vec target = feet[s].place;
+        target.y += body.ankle;
+
+        // Heels rise with pointed toes: the ankle turns about the ball of the foot, which stays where it was.
+        const double down = std::clamp(feet[s].toes_down, -35.0, 70.0);
+        const Vec sole{0, -0.72 * body.ankle,
+                       std::sqrt(std::pow(body.foot, 2) - std::pow(0.72 * body.ankle, 2))};
+        const Vec toes = foot * (about_x(down) * sole);
+        target += foot * sole - toes;
+
+        const Vec to = target - hip;
+        const Vec forward = normalised(foot.z + f.upright.z);
+        const double ahead = std::clamp(dot(to, forward) / body.leg(), 0.0, 1.0);
+        const Vec pole = forward + foot.x * (0.12 * outwards(s)) + Vec{0, ahead, 0};
+        const Limb leg = two_bones(hip, target, body.thigh, body.shin, pole, 32);
+        f.at[hip_of[s]] = hip;
+        f.at[knee_of[s]] = leg.middle;
+        f.at[ankle_of[s]] = leg.end;
+        f.at[foot_of[s]] = leg.end + toes;
+    }
+}
+
+/// The goal of one key in metres on the stage.
+Vec goal(const HandKey& key, int s, const Figure& f, const Body& body, const Bearing& bearing,
+         const Place& place, const Others& others) {
+    const double o = outwards(s), size = body.scale();
+    const Vec offset{o * key.x * size, key.y * size, key.z * size};
+    const auto on_ribs = [&](Joint j, Vec v) { return f.at[j] + f.ribs * (v * size + offset); };
+    const auto on_hips = [&](Joint j, Vec v) { return f.at[j] + f.hips * (v * size + offset); };
+    const auto on_skull = [&](Vec v) { return f.at[head] + f.skull * (v * size + offset); };
+    const auto aside = [&](Vec v) { return Vec{o * v.x, v.y, v.z}; };
+    const Vec own_shoulder = f.at[shoulder_of[s]];
+    const Rotation heading = about_y(place.heading);
+    const auto on_partner = [&](const Vec& at) { return at + heading * offset; };
+    const Figure& p = others.partner ? *others.partner : f;
+
+    switch (key.at) {
+        case At::rest:
+            return own_shoulder +
+                   f.upright * Vec{o * bearing.arms_out, -bearing.elbow_bend * body.arm(), 0.05};
+        case At::reach:
+            return own_shoulder + f.upright * (Vec{o * key.x, key.y, key.z} * body.arm());
+        case At::chest:
+            return on_ribs(chest, {0, -0.10, 0.13});
+        case At::belly:
+            return on_ribs(spine, {0, -0.06, 0.16});
+        case At::low_back:
+            return on_hips(spine, {0, -0.15, -0.15});
+        case At::shoulder:
+            return on_ribs(shoulder_of[1 - s], {0, 0.04, 0.07});
+        case At::elbow:
+            return lerp(f.at[shoulder_of[1 - s]], f.at[pelvis], 0.42) +
+                   f.upright * (aside({-0.10, 0, 0.13}) * size + offset);
+        case At::throat:
+            return on_ribs(neck, {0, -0.04, 0.09});
+        case At::nape:
+            return on_ribs(neck, {0, 0.05, -0.09});
+        case At::mouth:
+            return on_skull({0, -0.06, 0.13});
+        case At::nose:
+            return on_skull({0, -0.02, 0.15});
+        case At::brow:
+            return on_skull(aside({0.02, 0.07, 0.14}));
+        case At::eye:
+            return on_skull(aside({0.035, 0.02, 0.14}));
+        case At::ear:
+            return on_skull(aside({0.10, 0.0, 0.03}));
+        case At::crown:
+            return on_skull({0, 0.13, 0});
+        case At::pocket:
+            return on_hips(hip_of[s], aside({0.10, -0.04, 0.06}));
+        case At::back_pocket:
+            return on_hips(hip_of[s], aside({0.05, -0.03, -0.14}));
+        case At::waist:
+            return on_hips(pelvis, aside({0.19, 0.10, 0.02}));
+        case At::thigh:
+            return lerp(f.at[hip_of[s]], f.at[knee_of[s]], 0.72) +
+                   heading * (Vec{0, 0.06, 0.07} * size + offset);
+        case At::knee:
+            return f.at[knee_of[s]] + heading * (Vec{0, 0.05, 0.07} * size + offset);
+        case At::foot:
+            return f.at[foot_of[s]] + heading * (Vec{0, 0.06, 0} * size + offset);
+        case At::other_foot:
+            return f.at[foot_of[1 - s]] + heading * (Vec{0, 0.06, 0} * size + offset);
+        case At::floor:
+            return place.position + heading * (aside({0.08, 0.05, 0.36}) * size + offset);
+        case At::meet:
+            return others.meeting + others.stage * (Vec{key.x, key.y, key.z} * size);
+        case At::partner_head:
+            return on_partner(p.at[head]);
+        case At::partner_ear:
+            return on_partner(p.at[head]);
+        case At::partner_chest:
+            return on_partner(p.at[chest] + p.ribs * Vec{0, -0.06, 0.12});
+        case At::partner_belly:
+            return on_partner(p.at[spine] + p.ribs * Vec{0, -0.05, 0.13});
+        case At::partner_back:
+            return on_partner(p.at[chest] + p.ribs * Vec{0, -0.08, -0.12});
+        case At::partner_nape:
+            return on_partner(p.at[neck] + p.ribs * Vec{0, 0, -0.07});
+        case At::partner_shoulder:
+            return on_partner(p.at[shoulder_of[1 - s]] + Vec{0, 0.03, 0});
+        case At::partner_pocket:
+            return on_partner(p.at[hip_of[s]] + p.hips * aside({0.10, -0.04, -0.04}));
+    }
+    return own_shoulder;
+}
+
+/// Pushes a point out of trunk and head, so that hands go around them.
+Vec outside(const Vec& point, const Figure& f, const Body& body) {
+    const double size = body.scale();
+    Vec p = point;
+    const Vec axis = f.at[neck] - f.at[pelvis];
+    const double along = dot(p - f.at[pelvis], axis) / dot(axis, axis);
+    if (along > -0.25 && along < 1.0) {
+        const Vec centre = f.at[pelvis] + axis * along;
+        const Vec local = f.ribs.into(p - centre);
+        const double a = 0.165 * size, b = 0.115 * size;
+        const double e = std::hypot(local.x / a, local.z / b);
+        if (e < 1) p = centre + f.ribs * Vec{local.x / std::max(e, 0.2), local.y, local.z / std::max(e, 0.2)};
+    }
+    const Vec from_head = p - f.at[head];
+    const double r = 0.105 * size, d = length(from_head);
+    if (d < r) p = f.at[head] + from_head * (r / std::max(d, 0.02));
+    return p;
+}
+
+/// The collarbone follows the arm a little: up with a raised hand, forward with one that reaches out.
+Vec shoulder_at(const Figure& f, const Body& body, int s, const Vec& target) {
+    const Vec base{outwards(s) * body.shoulder, -body.shoulder_drop, 0};
+    const Vec way = f.ribs.into(target - (f.at[chest] + f.ribs * base)) * (1 / body.arm());
+    const double far = std::clamp(length(way), 0.3, 1.0);
+    const Vec lean{0, 0.30 * std::max(0.0, way.y + 0.25) * far, 0.28 * std::clamp(way.z, -0.5, 1.0) * far};
+    return f.at[chest] + f.ribs * (normalised(base + lean * body.shoulder) * length(base));
+}
+
+/// Down, outwards and back, as elbows hang; forward when the hand is overhead, outwards when it is behind.
+Vec elbow_pole(const Figure& f, const Vec& way, int s, double raised) {
+    const Vec local = normalised(f.upright.into(way));
+    const double behind = std::max(0.0, -local.z), overhead = std::max(0.0, local.y);
+    const Vec pole{outwards(s) * (0.45 + 0.8 * behind), -1.0, -0.55 + 1.0 * overhead};
+    return turned(f.upright * pole, f.upright * local, -outwards(s) * raised);
+}
+
+void hand(Figure& f, const Body& body, const Posture& posture, int s) {
+    const double grip = std::clamp(posture.c[lgrip + s], 0.0, 1.0), o = outwards(s);
+    const Vec along = normalised(f.at[wrist_of[s]] - f.at[elbow_of[s]]);
+    Vec thumb = normalised(reject(f.upright * Vec{-0.5 * o, 0.6, 0.6}, along));
+    thumb = turned(thumb, along, -o * posture.c[lroll + s]);
+    const Vec fingers = turned(along, thumb, o * std::clamp(posture.c[lflex + s], -60.0, 65.0));
+    f.at[hand_of[s]] = f.at[wrist_of[s]] + fingers * body.hand;
+    f.at[tip_of[s]] = f.at[hand_of[s]] + turned(fingers, thumb, o * (12 + 105 * grip)) * body.tip;
+    f.at[thumb_of[s]] = f.at[hand_of[s]] + normalised(thumb + fingers * 0.35) * body.thumb;
+}
+
+}  // namespace
+
+Figure stand(const Body& body, const Bearing& bearing, const Place& place, const Posture& posture,
+             const std::array<Foot, 2>& feet) {
+    const auto& c = posture.c;
+    const double size = body.scale();
+    const Rotation heading = about_y(place.heading);
+    const double bent = c[bend] + bearing.slouch;
+    const double hip_bend = c[pitch] + (c[bend] > 0 ? 0.42 * c[bend] : 0.3 * c[bend]);
+    const double spine_bend = bent - (hip_bend - c[pitch]);
+
+    Figure f;
+    f.hips = heading * about_y(c[yaw]) * about_x(hip_bend) * about_z(c[roll] + 0.25 * c[side]);
+    // Weight stays above the feet: the seat goes back when the trunk goes forward or the knees bend.
+    const double back = 0.20 * std::sin(radians(std::clamp(hip_bend + 0.5 * spine_bend, -20.0, 90.0))) *
+                            (c[lift] > 0.02 ? 0.3 : 1.0) +
+                        0.10 * std::clamp(-c[py], 0.0, 0.4);
+    const bool down_there = c[py] < -0.3 && c[pz] < -0.2;  // seated or fallen: the programme says where
+    f.at[pelvis] = place.position + heading * (Vec{c[px], 0, c[pz] - (down_there ? 0.0 : back)} * size);
+    f.at[pelvis].y = reachable(body, f.at[pelvis], f.hips, feet, body.standing() + c[lift] + c[py] * size);
+
+    const auto spine_frame = [&](double part) {
+        return f.hips * about_y(part * c[twist]) * about_x(part * spine_bend) *
+               about_z(part * 0.75 * c[side]);
+    };
+    f.at[spine] = f.at[pelvis] + spine_frame(0.2) * Vec{0, body.lower_spine, 0};
+    f.ribs = spine_frame(0.9);
+    f.at[chest] = f.at[spine] + spine_frame(0.75) * Vec{0, body.upper_spine, 0};
+    f.at[neck] = f.at[chest] + spine_frame(1) * about_x(0.25 * c[nod]) * Vec{0, body.neck, 0};
+    f.skull = f.ribs * about_x(-0.6 * bearing.slouch) * about_y(c[turn]) * about_x(c[nod] + bearing.chin) *
+              about_z(c[tilt]);
+    f.at[head] = f.at[neck] + f.skull * (normalised(Vec{0, 1, 0.12}) * body.head);
+
+    const Vec flat{f.ribs.x.x, 0, f.ribs.x.z};
+    f.upright.x = normalised(flat);
+    f.upright.z = cross(f.upright.x, f.upright.y);
+    legs(f, body, feet);
+    for (int s = 0; s < 2; ++s)
+        f.at[shoulder_of[s]] =
+            f.at[chest] + f.ribs * Vec{outwards(s) * body.shoulder, -body.shoulder_drop, 0};
+    return f;
+}
+
+void reach(Figure& f, const Body& body, const Bearing& bearing, const Place& place, const Posture& posture,
+           const Others& others, const std::array<Vec, 2>& shift) {
+    for (int s = 0; s < 2; ++s) {
+        const auto& h = posture.hands[s];
+        const Vec a = goal(*h.from, s, f, body, bearing, place, others);
+        const Vec b = goal(*h.to, s, f, body, bearing, place, others);
+        const Channel first = s == 0 ? lx : rx;
+        const Vec wave{outwards(s) * posture.c[first], posture.c[first + 1], posture.c[first + 2]};
+        Vec target = lerp(a, b, h.weight) + f.upright * (wave * body.scale()) + shift[s];
+        target = outside(target, f, body);
+
+        const Vec root = shoulder_at(f, body, s, target);
+        const Vec pole = elbow_pole(f, target - root, s, posture.c[lelbow + s]);
+        const double lower = body.forearm + body.hand;
+        const Limb arm = two_bones(root, target, body.upper_arm, lower, pole, 26);
+        f.at[shoulder_of[s]] = root;
+        f.at[elbow_of[s]] = arm.middle;
+        f.at[wrist_of[s]] = lerp(arm.middle, arm.end, body.forearm / lower);
+        hand(f, body, posture, s);
+    }
+}
+
+}  // namespace actformer::ingest::synth
