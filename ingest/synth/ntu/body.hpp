@@ -42,9 +42,9 @@ using Joints = std::array<Vec, joints>;
 /// Lengths in metres. Both sides are alike.
 struct Body {
     double height = 1.72;
-    double lower_spine = 0.30, upper_spine = 0.22, neck = 0.075, head = 0.155;
+    double lower_spine = 0.28, upper_spine = 0.21, neck = 0.07, head = 0.14;
     double shoulder = 0.165, shoulder_drop = 0.02, upper_arm = 0.27, forearm = 0.245, hand = 0.075;
-    double tip = 0.08, thumb = 0.06;
+    double tip = 0.07, thumb = 0.05;
     double hip = 0.085, hip_drop = 0.03, thigh = 0.41, shin = 0.40, foot = 0.125, ankle = 0.085;
 
     double scale() const { return height / 1.72; }

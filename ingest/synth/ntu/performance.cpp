@@ -261,6 +261,7 @@ Performance perform(const Casting& casting) {
     out.frames.resize(m.frames);
     const Rotation turn_scene = about_y(m.facing);
     std::array<std::array<Vec, 2>, 2> shift;
+    std::array<Elbows, 2> elbows{};
     for (std::size_t f = 0; f < m.frames; ++f) {
         std::array<Figure, 2> figures;
         for (int p = 0; p < out.persons; ++p) {
@@ -276,7 +277,7 @@ Performance perform(const Casting& casting) {
                 shift[p][s] += off_target(q.actor, programme.parts[p], g, s) + swing_of(q, f, s);
             }
             reach(figures[p], q.actor.body, q.actor.bearing, q.places[f], q.postures[f],
-                  others_of(figures, p, out.persons), shift[p]);
+                  others_of(figures, p, out.persons), shift[p], elbows[p]);
         }
         for (int p = 0; p < out.persons; ++p) {
             auto at = m.mirrored ? mirrored(figures[p].at) : figures[p].at;

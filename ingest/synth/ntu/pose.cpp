@@ -257,7 +257,7 @@ Figure stand(const Body& body, const Bearing& bearing, const Place& place, const
 }
 
 void reach(Figure& f, const Body& body, const Bearing& bearing, const Place& place, const Posture& posture,
-           const Others& others, const std::array<Vec, 2>& shift) {
+           const Others& others, const std::array<Vec, 2>& shift, Elbows& elbows) {
     for (int s = 0; s < 2; ++s) {
         const auto& h = posture.hands[s];
         const Vec a = goal(*h.from, s, f, body, bearing, place, others);
@@ -268,7 +268,11 @@ void reach(Figure& f, const Body& body, const Bearing& bearing, const Place& pla
         target = outside(target, f, body);
 
         const Vec root = shoulder_at(f, body, s, target);
-        const Vec pole = elbow_pole(f, target - root, s, posture.c[lelbow + s]);
+        const Vec axis = normalised(target - root);
+        const Vec wanted = normalised(reject(elbow_pole(f, target - root, s, posture.c[lelbow + s]), axis));
+        const Vec before = reject(elbows[s], axis);
+        const Vec pole = normalised(lerp(wanted, before, length(before) > 1e-6 ? 0.65 : 0.0));
+        elbows[s] = pole;
         const double lower = body.forearm + body.hand;
         const Limb arm = two_bones(root, target, body.upper_arm, lower, pole, 26);
         f.at[shoulder_of[s]] = root;

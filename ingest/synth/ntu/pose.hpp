@@ -48,8 +48,12 @@ struct Others {
     Rotation stage;  ///< x to the first person's left, z to the second
 };
 
-/// The arms. `shift` moves each hand's goal a little (metres, stage axes).
+/// Which way each elbow points from the line between shoulder and hand, in the frame before; zero at the
+/// start.
+using Elbows = std::array<Vec, 2>;
+
+/// The arms. `shift` moves each hand's goal a little (metres, stage axes). Elbows come around without haste.
 void reach(Figure& figure, const Body& body, const Bearing& bearing, const Place& place,
-           const Posture& posture, const Others& others, const std::array<Vec, 2>& shift);
+           const Posture& posture, const Others& others, const std::array<Vec, 2>& shift, Elbows& elbows);
 
 }  // namespace actformer::ingest::synth
