@@ -80,7 +80,7 @@ Foot stepping(const Walk& w, const std::vector<Place>& places, const Bearing& be
     const double push_off = 38 * std::sin(pi * std::min(1.0, phase * 1.7));
     const double heel_first = 14 * ease(phase * 2 - 0.9) * (1 - phase) * 4;
     foot.toes_down = std::min(1.0, moved / 0.5) * (push_off - heel_first);
-    foot.planted = false;
+    foot.slack = 0.3 * std::pow(std::sin(pi * phase), 2);
     return foot;
 }
 

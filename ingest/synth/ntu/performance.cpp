@@ -165,36 +165,56 @@ void move_feet(std::array<Foot, 2>& feet, const Posture& posture, const Place& p
             about_y(place.heading) * (moved * (size * (moved.y > 0.1 ? 0.6 + 0.4 * amplitude : 1.0)));
         feet[s].place.y += std::max(0.0, posture.c[lift]);
         feet[s].toes_down += posture.c[first + 3];
-        if (moved.y > 0.03 || posture.c[lift] > 0.01) feet[s].planted = false;
+        feet[s].slack += 4 * std::max(0.0, moved.y);
     }
 }
 
+/// One person's whole part, all but the arms settled.
 struct Played {
     Actor actor;
     std::vector<Posture> postures;
     std::vector<Place> places;
     Gait gait;
+    std::vector<double> sink;
+    std::vector<std::array<Vec, 2>> off_target;  ///< of the hands
 };
 
-Played play(const Programme& programme, int person, int performer, const Manner& m, const Casting& casting,
-            const std::vector<double>& times, double size) {
-    Played out{actor_of(programme, person, performer, m, casting), {}, {}, {}};
-    for (const double t : times) {
-        out.postures.push_back(
-            posture_at(programme, person, t, out.actor.amplitude, m.tempo, out.actor.phase));
-        out.places.push_back(place_at(programme.parts[person], out.postures.back(), size, m.distance));
-    }
-    out.gait = walk(out.places, out.actor.bearing, out.actor.body.leg());
+/// The pelvis sinks ahead of need and rises after it, without a jerk: the largest need nearby, then averaged.
+std::vector<double> settled(const std::vector<double>& need) {
+    const int n = static_cast<int>(need.size());
+    const auto at = [&](const std::vector<double>& v, int f) {
+        return v[static_cast<std::size_t>(std::clamp(f, 0, n - 1))];
+    };
+    std::vector<double> most(need.size()), out(need.size());
+    for (int f = 0; f < n; ++f)
+        for (int d = -3; d <= 3; ++d) most[f] = std::max(most[f], at(need, f + d));
+    for (int f = 0; f < n; ++f)
+        for (int d = -3; d <= 3; ++d) out[f] += at(most, f + d) * (4 - std::abs(d)) / 16;
     return out;
 }
 
-Figure stand_up(Played& p, std::size_t f) {
-    auto feet = p.gait.feet[f];
-    auto posture = p.postures[f];
-    move_feet(feet, posture, p.places[f], p.actor.body.scale(), p.actor.amplitude);
-    posture.c[twist] += 7 * p.gait.swing[f];
-    posture.c[yaw] -= 4 * p.gait.swing[f];
-    return stand(p.actor.body, p.actor.bearing, p.places[f], posture, feet);
+Played play(const Programme& programme, int person, int performer, const Manner& m, const Casting& casting,
+            const std::vector<double>& times, double size) {
+    Played out{actor_of(programme, person, performer, m, casting), {}, {}, {}, {}, {}};
+    const auto& part = programme.parts[person];
+    const auto& [body, bearing, amplitude, phase, keys] = out.actor;
+    Sway sway(stream(casting, 20 + static_cast<std::uint64_t>(person)));
+    for (std::size_t f = 0; f < times.size(); ++f) {
+        out.postures.push_back(posture_at(programme, person, times[f], amplitude, m.tempo, phase));
+        out.places.push_back(place_at(part, out.postures[f], size, m.distance));
+        sway.apply(out.postures[f], static_cast<double>(f) / fps, out.off_target.emplace_back());
+    }
+    out.gait = walk(out.places, bearing, body.leg());
+    std::vector<double> need;
+    for (std::size_t f = 0; f < times.size(); ++f) {
+        auto& posture = out.postures[f];
+        posture.c[twist] += 7 * out.gait.swing[f];
+        posture.c[yaw] -= 4 * out.gait.swing[f];
+        move_feet(out.gait.feet[f], posture, out.places[f], body.scale(), amplitude);
+        need.push_back(sink_needed(body, bearing, out.places[f], posture, out.gait.feet[f]));
+    }
+    out.sink = settled(need);
+    return out;
 }
 
 /// Arms hanging at the side swing with the gait; busy ones do not.
@@ -205,6 +225,17 @@ Vec swing_of(const Played& p, std::size_t f, int s) {
             .x;
     const double swing = (s == 1 ? 1 : -1) * p.gait.swing[f] * idle;
     return about_y(p.places[f].heading) * Vec{0, 0.05 * std::abs(swing), 0.20 * swing};
+}
+
+/// How far each hand goes from where the programme sends it.
+std::array<Vec, 2> hand_shifts(const Played& p, const Part& part, std::size_t f) {
+    auto shift = p.off_target[f];
+    for (int s = 0; s < 2; ++s) {
+        const auto& g = p.postures[f].hands[s];
+        if (exact(g.to->at)) shift[s] = shift[s] * (1 - 0.8 * g.weight);
+        shift[s] += off_target(p.actor, part, g, s) + swing_of(p, f, s);
+    }
+    return shift;
 }
 
 /// Sides exchanged: as if seen in a mirror.
@@ -251,33 +282,24 @@ Performance perform(const Casting& casting) {
     if (programme.persons == 2) size = (size + body_of(cast[1]).scale()) / 2;
 
     std::vector<Played> played;
-    std::vector<Sway> sways;
-    for (int p = 0; p < programme.persons; ++p) {
+    for (int p = 0; p < programme.persons; ++p)
         played.push_back(play(programme, p, cast[p], m, casting, times, size));
-        sways.emplace_back(stream(casting, 20 + static_cast<std::uint64_t>(p)));
-    }
 
     Performance out{programme.persons, {}, -1};
     out.frames.resize(m.frames);
     const Rotation turn_scene = about_y(m.facing);
-    std::array<std::array<Vec, 2>, 2> shift;
     std::array<Elbows, 2> elbows{};
     for (std::size_t f = 0; f < m.frames; ++f) {
         std::array<Figure, 2> figures;
         for (int p = 0; p < out.persons; ++p) {
-            shift[p] = {};
-            sways[p].apply(played[p].postures[f], static_cast<double>(f) / fps, shift[p]);
-            figures[p] = stand_up(played[p], f);
+            const auto& q = played[p];
+            figures[p] =
+                stand(q.actor.body, q.actor.bearing, q.places[f], q.postures[f], q.gait.feet[f], q.sink[f]);
         }
         for (int p = 0; p < out.persons; ++p) {
-            auto& q = played[p];
-            for (int s = 0; s < 2; ++s) {
-                const auto& g = q.postures[f].hands[s];
-                if (exact(g.to->at)) shift[p][s] = shift[p][s] * (1 - 0.8 * g.weight);
-                shift[p][s] += off_target(q.actor, programme.parts[p], g, s) + swing_of(q, f, s);
-            }
+            const auto& q = played[p];
             reach(figures[p], q.actor.body, q.actor.bearing, q.places[f], q.postures[f],
-                  others_of(figures, p, out.persons), shift[p], elbows[p]);
+                  others_of(figures, p, out.persons), hand_shifts(q, programme.parts[p], f), elbows[p]);
         }
         for (int p = 0; p < out.persons; ++p) {
             auto at = m.mirrored ? mirrored(figures[p].at) : figures[p].at;

@@ -32,28 +32,6 @@ Limb two_bones(const Vec& root, const Vec& target, double upper, double lower, c
     return {root + axis * along + normalised(reject(pole, axis)) * off, root + axis * d};
 }
 
-/// The smaller of two, without a corner.
-double soft_min(double a, double b) {
-    constexpr double k = 0.012;
-    const double h = std::clamp(0.5 + 0.5 * (a - b) / k, 0.0, 1.0);
-    return a + (b - a) * h - k * h * (1 - h);
-}
-
-/// How high the pelvis can be with both planted feet in reach.
-double reachable(const Body& body, const Vec& pelvis_at, const Rotation& hips,
-                 const std::array<Foot, 2>& feet, double wanted) {
-    for (int s = 0; s < 2; ++s) {
-        if (!feet[s].planted) continue;
-        const Vec offset = hips * Vec{outwards(s) * body.hip, -body.hip_drop, 0};
-        const double dx = pelvis_at.x + offset.x - feet[s].place.x,
-                     dz = pelvis_at.z + offset.z - feet[s].place.z;
-        const double reach2 = std::pow(0.996 * body.leg(), 2) - dx * dx - dz * dz;
-        const double top = body.ankle + feet[s].place.y + std::sqrt(std::max(0.04, reach2)) - offset.y;
-        wanted = soft_min(wanted, top);
-    }
-    return wanted;
-}
-
 void legs(Figure& f, const Body& body, const std::array<Foot, 2>& feet) {
     for (int s = 0; s < 2; ++s) {
         const Vec hip = f.at[pelvis] + f.hips * Vec{outwards(s) * body.hip, -body.hip_drop, 0};
@@ -194,11 +172,18 @@ Vec shoulder_at(const Figure& f, const Body& body, int s, const Vec& target) {
     return f.at[chest] + f.ribs * (normalised(base + lean * body.shoulder) * length(base));
 }
 
-/// Down, outwards and back, as elbows hang; forward when the hand is overhead, outwards when it is behind.
+double rise(double from, double to, double at) {
+    return ease((at - from) / (to - from));
+}
+
+/// Down, outwards and back, as elbows hang; below a hand before the face; outwards when it is overhead or
+/// behind.
 Vec elbow_pole(const Figure& f, const Vec& way, int s, double raised) {
     const Vec local = normalised(f.upright.into(way));
-    const double behind = std::max(0.0, -local.z), overhead = std::max(0.0, local.y);
-    const Vec pole{outwards(s) * (0.45 + 0.8 * behind), -1.0, -0.55 + 1.0 * overhead};
+    const double behind = std::max(0.0, -local.z), high = rise(-0.5, 0.6, local.y),
+                 overhead = rise(0.5, 1.05, local.y);
+    const Vec pole{outwards(s) * (0.42 - 0.05 * high + 1.3 * overhead + 0.8 * behind), -1 + 0.8 * overhead,
+                   -0.55 + 0.8 * high};
     return turned(f.upright * pole, f.upright * local, -outwards(s) * raised);
 }
 
@@ -213,26 +198,56 @@ void hand(Figure& f, const Body& body, const Posture& posture, int s) {
     f.at[thumb_of[s]] = f.at[hand_of[s]] + normalised(thumb + fingers * 0.35) * body.thumb;
 }
 
+struct Trunk {
+    Vec pelvis;
+    Rotation hips;
+    double spine_bend;
+};
+
+/// The pelvis before the legs have their say. A bend is shared between hips and spine.
+Trunk trunk_of(const Body& body, const Bearing& bearing, const Place& place, const Posture& posture) {
+    const auto& c = posture.c;
+    const Rotation heading = about_y(place.heading);
+    Trunk t;
+    const double hip_bend = c[pitch] + (c[bend] > 0 ? 0.42 : 0.3) * c[bend];
+    t.spine_bend = c[bend] + bearing.slouch - (hip_bend - c[pitch]);
+    t.hips = heading * about_y(c[yaw]) * about_x(hip_bend) * about_z(c[roll] + 0.25 * c[side]);
+
+    // Weight stays above the feet: the seat goes back when the trunk goes forward or the knees bend, unless
+    // in the air or on a chair, where the programme says where the seat is.
+    const double lean = std::clamp(hip_bend + 0.5 * t.spine_bend, -20.0, 90.0);
+    const double back = 0.20 * std::sin(radians(lean)) + 0.10 * std::clamp(-c[py], 0.0, 0.4);
+    const double free =
+        (1 - 0.7 * std::clamp(c[lift] * 10, 0.0, 1.0)) * (1 - std::clamp(-4 * c[pz], 0.0, 1.0));
+    t.pelvis = place.position + heading * (Vec{c[px], 0, c[pz] - back * free} * body.scale());
+    t.pelvis.y = body.standing() + c[lift] + c[py] * body.scale();
+    return t;
+}
+
 }  // namespace
 
-Figure stand(const Body& body, const Bearing& bearing, const Place& place, const Posture& posture,
-             const std::array<Foot, 2>& feet) {
-    const auto& c = posture.c;
-    const double size = body.scale();
-    const Rotation heading = about_y(place.heading);
-    const double bent = c[bend] + bearing.slouch;
-    const double hip_bend = c[pitch] + (c[bend] > 0 ? 0.42 * c[bend] : 0.3 * c[bend]);
-    const double spine_bend = bent - (hip_bend - c[pitch]);
+double sink_needed(const Body& body, const Bearing& bearing, const Place& place, const Posture& posture,
+                   const std::array<Foot, 2>& feet) {
+    const Trunk t = trunk_of(body, bearing, place, posture);
+    double sink = 0;
+    for (int s = 0; s < 2; ++s) {
+        const Vec hip = t.pelvis + t.hips * Vec{outwards(s) * body.hip, -body.hip_drop, 0};
+        const double dx = hip.x - feet[s].place.x, dz = hip.z - feet[s].place.z;
+        const double reach2 = std::pow(0.994 * body.leg(), 2) - dx * dx - dz * dz;
+        const double top = body.ankle + feet[s].place.y + feet[s].slack + std::sqrt(std::max(0.04, reach2));
+        sink = std::max(sink, hip.y - top);
+    }
+    return sink;
+}
 
+Figure stand(const Body& body, const Bearing& bearing, const Place& place, const Posture& posture,
+             const std::array<Foot, 2>& feet, double sink) {
+    const auto& c = posture.c;
+    const Trunk t = trunk_of(body, bearing, place, posture);
+    const double spine_bend = t.spine_bend;
     Figure f;
-    f.hips = heading * about_y(c[yaw]) * about_x(hip_bend) * about_z(c[roll] + 0.25 * c[side]);
-    // Weight stays above the feet: the seat goes back when the trunk goes forward or the knees bend.
-    const double back = 0.20 * std::sin(radians(std::clamp(hip_bend + 0.5 * spine_bend, -20.0, 90.0))) *
-                            (c[lift] > 0.02 ? 0.3 : 1.0) +
-                        0.10 * std::clamp(-c[py], 0.0, 0.4);
-    const bool down_there = c[py] < -0.3 && c[pz] < -0.2;  // seated or fallen: the programme says where
-    f.at[pelvis] = place.position + heading * (Vec{c[px], 0, c[pz] - (down_there ? 0.0 : back)} * size);
-    f.at[pelvis].y = reachable(body, f.at[pelvis], f.hips, feet, body.standing() + c[lift] + c[py] * size);
+    f.hips = t.hips;
+    f.at[pelvis] = t.pelvis - Vec{0, sink, 0};
 
     const auto spine_frame = [&](double part) {
         return f.hips * about_y(part * c[twist]) * about_x(part * spine_bend) *
@@ -271,7 +286,7 @@ void reach(Figure& f, const Body& body, const Bearing& bearing, const Place& pla
         const Vec axis = normalised(target - root);
         const Vec wanted = normalised(reject(elbow_pole(f, target - root, s, posture.c[lelbow + s]), axis));
         const Vec before = reject(elbows[s], axis);
-        const Vec pole = normalised(lerp(wanted, before, length(before) > 1e-6 ? 0.65 : 0.0));
+        const Vec pole = normalised(lerp(wanted, before, length(before) > 1e-6 ? 0.75 : 0.0));
         elbows[s] = pole;
         const double lower = body.forearm + body.hand;
         const Limb arm = two_bones(root, target, body.upper_arm, lower, pole, 26);

@@ -22,7 +22,7 @@ struct Bearing {
 struct Foot {
     Vec place;
     double heading = 0, toes_down = 0;
-    bool planted = true;
+    double slack = 0;  ///< how far the pelvis may rise beyond the leg's reach: 0 for a foot that bears weight
 };
 
 /// Where a body is on the stage.
@@ -37,9 +37,13 @@ struct Figure {
         upright;  ///< frames of pelvis, chest and head, and the chest's without its lean
 };
 
-/// Everything but the arms.
+/// How far the pelvis must sink for both feet to be in reach, metres.
+double sink_needed(const Body& body, const Bearing& bearing, const Place& place, const Posture& posture,
+                   const std::array<Foot, 2>& feet);
+
+/// Everything but the arms, the pelvis lowered by `sink`.
 Figure stand(const Body& body, const Bearing& bearing, const Place& place, const Posture& posture,
-             const std::array<Foot, 2>& feet);
+             const std::array<Foot, 2>& feet, double sink);
 
 /// What hands of two persons can be sent to besides their own body.
 struct Others {

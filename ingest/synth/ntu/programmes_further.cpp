@@ -65,7 +65,7 @@ std::vector<Programme> head_and_sports() {
                 .move(yaw, {{0.14, 0}, {0.40, -22}, {0.7, 22}, {1, 0}})
                 .move(py, {{0.1, 0}, {0.35, -0.1}, {0.75, -0.06}, {1, 0}})
                 .move(lfz, {{0.3, 0}, {0.5, 0.24}})
-                .beat(lfy, 0.06, 0.95, 0.25, 0.55)
+                .move(lfy, {{0.3, 0}, {0.39, 0.07}, {0.5, 0}})
                 .move(pz, {{0.3, 0}, {0.6, 0.1}})
                 .fists(0.2, 1),
             Programme(66, 3.4)  // juggle table tennis ball: small quick lifts of a bat held level, eyes on it
