@@ -27,7 +27,8 @@ Camera camera_of(int setup, int camera) {
     return {around * about_x(down), position};
 }
 
-/// Jitter of one joint in millimetres at 3 m: white from frame to frame, and slow.
+/// Jitter of one joint in millimetres at 3 m: white from frame to frame, and slow, against the joint before
+/// it.
 struct Jitter {
     double white, slow;
 };
@@ -35,39 +36,42 @@ struct Jitter {
 Jitter jitter_of(int joint) {
     switch (joint) {
         case pelvis:
+            return {0.2, 5};
         case spine:
         case chest:
+            return {0.25, 5};
         case left_hip:
         case right_hip:
-            return {0.5, 4};
+            return {0.3, 2.5};
         case neck:
+            return {0.5, 2.5};
         case head:
-            return {0.9, 4};
+            return {0.6, 6};
         case left_shoulder:
         case right_shoulder:
-            return {0.8, 7};
+            return {0.6, 7};
         case left_elbow:
         case right_elbow:
-            return {1.3, 10};
+            return {0.9, 13};
         case left_wrist:
         case right_wrist:
-            return {3.0, 9};
+            return {2.5, 14};
         case left_hand:
         case right_hand:
-            return {5.0, 9};
+            return {4.0, 12};
         case left_tip:
         case right_tip:
         case left_thumb:
         case right_thumb:
-            return {9.0, 12};
+            return {6.5, 11};
         case left_knee:
         case right_knee:
-            return {1.3, 9};
+            return {0.6, 10};
         case left_ankle:
         case right_ankle:
-            return {2.0, 11};
+            return {1.2, 12};
         default:
-            return {5.0, 16};  // feet
+            return {3.5, 13};  // feet
     }
 }
 
@@ -117,6 +121,16 @@ bool hidden(const std::array<Joints, 2>& bodies, int persons, int p, int j) {
     return false;
 }
 
+/// Hands at the face, at each other or at the trunk run together with what they touch.
+bool confusable(const Joints& body, int j) {
+    const bool left = j == left_wrist || j == left_hand || j == left_tip || j == left_thumb;
+    const bool right = j == right_wrist || j == right_hand || j == right_tip || j == right_thumb;
+    if (!left && !right) return false;
+    const auto near = [&](Joint other, double reach) { return length(body[j] - body[other]) < reach; };
+    return near(head, 0.2) || near(left ? right_hand : left_hand, 0.13) || near(spine, 0.2) ||
+           near(chest, 0.2);
+}
+
 /// Whether the tracker is sure of a joint, and how far off it is: doubts come, stay a while, and fade.
 struct Doubt {
     int left = 0;  ///< frames of doubt to come
@@ -132,35 +146,45 @@ class Tracker {
             for (auto& axis : joint) axis.start(random_);
     }
 
-    /// Spoils the joints of one body in one frame.
+    /// Spoils the joints of one body in one frame. Part of a joint's slow error is handed on to the joints it
+    /// carries.
     void spoil(SeenBody& body, const std::array<Joints, 2>& truth, int persons, int p) {
-        for (int j = 0; j < joints; ++j) {
+        static const auto order = ntu25().order();
+        static const auto& parents = ntu25().parents;
+        Joints drift;
+        for (const auto k : order) {
+            const int j = static_cast<int>(k);
             auto& seen = body.joint[j];
             const Vec at = truth[p][j];
             auto& d = doubt_[j];
-            doubt(d, j, hidden(truth, persons, p, j));
+            doubt(d, j, hidden(truth, persons, p, j), confusable(truth[p], j));
             const auto [white, slow] = jitter_of(j);
-            const double w = 0.001 * white * far_ * (1 + 1.5 * d.weight),
-                         s = 0.001 * slow * std::sqrt(far_) * (1 + d.weight);
-            Vec noise{w * random_.normal(), w * random_.normal(), 1.7 * w * random_.normal()};
-            noise +=
-                Vec{slow_[j][0].next(random_), slow_[j][1].next(random_), 1.4 * slow_[j][2].next(random_)} *
-                s;
+            const double w = 0.001 * white * far_ * (1 + 2 * d.weight);
+            const double s = 0.001 * slow * std::sqrt(far_) * (1 + d.weight);
+            drift[j] = wander(j) * s + (j == pelvis ? Vec{} : drift[parents[j]] * 0.7);
+            const Vec noise = drift[j] + Vec{random_.normal(), random_.normal(), 2.0 * random_.normal()} * w;
             seen.at = at + noise + d.error * d.weight;
             seen.tracking = d.left == 0 ? Tracking::tracked : d.lost ? Tracking::lost : Tracking::inferred;
         }
     }
 
   private:
-    void doubt(Doubt& d, int j, bool out_of_sight) {
-        const bool far_end = limb_joint(j);
+    void doubt(Doubt& d, int j, bool out_of_sight, bool mixed_up) {
         if (out_of_sight && d.left == 0 && random_.chance(0.6)) begin(d, 0.045, 4 + random_.below(10));
         if (out_of_sight && d.left > 0) d.left = std::max(d.left, 2);
-        if (!out_of_sight && d.left == 0 && far_end && random_.chance(0.004))
-            begin(d, 0.02, 2 + random_.below(8));
+        if (mixed_up && d.left == 0 && random_.chance(0.08)) begin(d, 0.022, 3 + random_.below(12));
+        if (limb_joint(j) && d.left == 0 && random_.chance(0.004)) begin(d, 0.02, 2 + random_.below(8));
         if (d.left > 0) --d.left;
         d.weight += ((d.left > 0 ? 1.0 : 0.0) - d.weight) * 0.35;
-        if (d.left > 0) d.error += Vec{random_.normal(), random_.normal(), random_.normal()} * 0.008;
+        if (d.left > 0) d.error += Vec{random_.normal(), random_.normal(), random_.normal()} * 0.006;
+    }
+
+    /// Slow error of one joint, smooth from frame to frame, of deviation about 1.
+    Vec wander(int j) {
+        auto& a = slow_[j];
+        const Vec next{a[0].next(random_), a[1].next(random_), 1.4 * a[2].next(random_)};
+        smooth_[j] += (next * 1.35 - smooth_[j]) * 0.2;
+        return smooth_[j];
     }
 
     void begin(Doubt& d, double size, int frames) {
@@ -179,6 +203,7 @@ class Tracker {
     Random random_;
     double far_;  ///< noise grows with the square of depth: 1 at 3 m
     std::array<Axes, joints> slow_ = make(std::make_index_sequence<joints>{});
+    Joints smooth_{};
     std::array<Doubt, joints> doubt_{};
 };
 
