@@ -286,22 +286,25 @@ bool in_gap(const std::vector<Gap>& gaps, std::size_t f) {
     return std::any_of(gaps.begin(), gaps.end(), [f](const Gap& g) { return f >= g.from && f < g.to; });
 }
 
-/// A chair taken for a person: a crouched heap of joints that hardly moves, for a short time.
+/// A chair taken for a person: a crumpled body beside the real one that hardly moves, for a short time.
 struct Ghost {
     std::size_t from = 0, to = 0;
     std::array<Joints, 2> at{};
 };
 
-Ghost ghost_of(std::size_t frames, const Vec& middle, Random& random) {
+Ghost ghost_of(std::size_t frames, const Joints& person, Random& random) {
     Ghost g;
     if (!random.chance(0.07)) return g;
     const int longest = std::max(6, static_cast<int>(frames) / 3);
     g.from = static_cast<std::size_t>(random.below(static_cast<int>(frames) - 6));
     g.to = std::min(frames, g.from + 4 + static_cast<std::size_t>(random.below(longest - 4)));
-    const Vec centre = middle + Vec{(random.chance(0.5) ? 1 : -1) * random.uniform(0.7, 1.2), -0.25,
-                                    random.uniform(-0.2, 0.6)};
-    for (auto& v : g.at[0])
-        v = centre + Vec{0.22 * random.normal(), 0.28 * random.normal(), 0.10 * random.normal()};
+    const double aside = (random.chance(0.5) ? 1 : -1) * random.uniform(0.7, 1.2);
+    const Vec centre = person[pelvis] + Vec{aside, -0.25, random.uniform(-0.2, 0.6)};
+    for (int j = 0; j < joints; ++j) {
+        const Vec from = person[j] - person[pelvis];
+        const Vec crumpled{0.9 * from.x, 0.55 * from.y, 0.9 * from.z};
+        g.at[0][j] = centre + crumpled + Vec{random.normal(), random.normal(), random.normal()} * 0.05;
+    }
     return g;
 }
 
@@ -331,7 +334,6 @@ Recording record(const Performance& performance, const Casting& casting, int cam
                   static_cast<std::uint64_t>(camera)};
     const auto truth = viewed(performance, casting.setup, camera);
     const auto frames = truth.size();
-    const Vec middle = truth[0][0][pelvis];
 
     std::vector<Tracker> trackers;
     std::vector<std::vector<Gap>> gaps;
@@ -339,8 +341,8 @@ Recording record(const Performance& performance, const Casting& casting, int cam
         trackers.emplace_back(Random{random.bits()}, truth[0][p][pelvis].z);
         gaps.push_back(gaps_of(frames, random));
     }
-    const auto ghost = ghost_of(frames, middle, random);
-    Tracker ghost_tracker(Random{random.bits()}, 1.6 * middle.z);
+    const auto ghost = ghost_of(frames, truth[0][0], random);
+    Tracker ghost_tracker(Random{random.bits()}, 1.6 * truth[0][0][pelvis].z);
     const auto id = first_id(random);
     const bool second_first = random.chance(0.5);
     const auto swap_at =

@@ -144,21 +144,32 @@ Vec goal(const HandKey& key, int s, const Figure& f, const Body& body, const Bea
     return own_shoulder;
 }
 
+/// Where a point lies against the trunk, seen as an elliptic cylinder: 0 on its axis, 1 on the skin.
+struct Girth {
+    Vec centre, local;
+    double depth;
+};
+
+Girth girth_at(const Vec& point, const Figure& f, const Body& body) {
+    const Vec axis = f.at[neck] - f.at[pelvis];
+    const double along = dot(point - f.at[pelvis], axis) / dot(axis, axis);
+    Girth g;
+    g.centre = f.at[pelvis] + axis * along;
+    g.local = f.ribs.into(point - g.centre);
+    g.depth = std::hypot(g.local.x / (0.165 * body.scale()), g.local.z / (0.115 * body.scale()));
+    if (along < -0.25 || along > 1) g.depth = 9;  // below or above it
+    return g;
+}
+
 /// Pushes a point out of trunk and head, so that hands go around them.
 Vec outside(const Vec& point, const Figure& f, const Body& body) {
-    const double size = body.scale();
     Vec p = point;
-    const Vec axis = f.at[neck] - f.at[pelvis];
-    const double along = dot(p - f.at[pelvis], axis) / dot(axis, axis);
-    if (along > -0.25 && along < 1.0) {
-        const Vec centre = f.at[pelvis] + axis * along;
-        const Vec local = f.ribs.into(p - centre);
-        const double a = 0.165 * size, b = 0.115 * size;
-        const double e = std::hypot(local.x / a, local.z / b);
-        if (e < 1) p = centre + f.ribs * Vec{local.x / std::max(e, 0.2), local.y, local.z / std::max(e, 0.2)};
+    if (const auto g = girth_at(p, f, body); g.depth < 1) {
+        const double out = 1 / std::max(g.depth, 0.2);
+        p = g.centre + f.ribs * Vec{g.local.x * out, g.local.y, g.local.z * out};
     }
     const Vec from_head = p - f.at[head];
-    const double r = 0.105 * size, d = length(from_head);
+    const double r = 0.105 * body.scale(), d = length(from_head);
     if (d < r) p = f.at[head] + from_head * (r / std::max(d, 0.02));
     return p;
 }
@@ -184,7 +195,7 @@ Vec elbow_pole(const Figure& f, const Vec& way, int s, double raised) {
                  overhead = rise(0.5, 1.05, local.y);
     const Vec pole{outwards(s) * (0.42 - 0.05 * high + 1.3 * overhead + 0.8 * behind), -1 + 0.8 * overhead,
                    -0.55 + 0.8 * high};
-    return turned(f.upright * pole, f.upright * local, -outwards(s) * raised);
+    return turned(f.upright * pole, f.upright * local, outwards(s) * raised);
 }
 
 void hand(Figure& f, const Body& body, const Posture& posture, int s) {
@@ -284,12 +295,21 @@ void reach(Figure& f, const Body& body, const Bearing& bearing, const Place& pla
 
         const Vec root = shoulder_at(f, body, s, target);
         const Vec axis = normalised(target - root);
-        const Vec wanted = normalised(reject(elbow_pole(f, target - root, s, posture.c[lelbow + s]), axis));
+        const double lower = body.forearm + body.hand;
+        const auto towards = [&](const Vec& pole) {
+            return two_bones(root, target, body.upper_arm, lower, pole, 26);
+        };
+
+        // An elbow that would sink into the trunk is raised.
+        const Limb close = towards(elbow_pole(f, target - root, s, posture.c[lelbow + s]));
+        const double depth = std::min(girth_at(close.middle, f, body).depth,
+                                      girth_at(lerp(close.middle, close.end, 0.3), f, body).depth);
+        const double raised = posture.c[lelbow + s] + 80 * std::clamp(1.1 - depth, 0.0, 1.0);
+        const Vec wanted = normalised(reject(elbow_pole(f, target - root, s, raised), axis));
         const Vec before = reject(elbows[s], axis);
         const Vec pole = normalised(lerp(wanted, before, length(before) > 1e-6 ? 0.75 : 0.0));
         elbows[s] = pole;
-        const double lower = body.forearm + body.hand;
-        const Limb arm = two_bones(root, target, body.upper_arm, lower, pole, 26);
+        const Limb arm = towards(pole);
         f.at[shoulder_of[s]] = root;
         f.at[elbow_of[s]] = arm.middle;
         f.at[wrist_of[s]] = lerp(arm.middle, arm.end, body.forearm / lower);
