@@ -174,6 +174,12 @@ Vec outside(const Vec& point, const Figure& f, const Body& body) {
     return p;
 }
 
+/// Between low and high goals a hand swings out to the front, and does not slip past the armpit.
+Vec on_its_way(const Vec& a, const Vec& b, double weight, const Figure& f, const Body& body) {
+    const double climb = std::clamp(std::abs(b.y - a.y) / (0.5 * body.scale()), 0.0, 1.0);
+    return lerp(a, b, weight) + f.upright.z * (0.17 * body.scale() * climb * 4 * weight * (1 - weight));
+}
+
 /// The collarbone follows the arm a little: up with a raised hand, forward with one that reaches out.
 Vec shoulder_at(const Figure& f, const Body& body, int s, const Vec& target) {
     const Vec base{outwards(s) * body.shoulder, -body.shoulder_drop, 0};
@@ -290,7 +296,7 @@ void reach(Figure& f, const Body& body, const Bearing& bearing, const Place& pla
         const Vec b = goal(*h.to, s, f, body, bearing, place, others);
         const Channel first = s == 0 ? lx : rx;
         const Vec wave{outwards(s) * posture.c[first], posture.c[first + 1], posture.c[first + 2]};
-        Vec target = lerp(a, b, h.weight) + f.upright * (wave * body.scale()) + shift[s];
+        Vec target = on_its_way(a, b, h.weight, f, body) + f.upright * (wave * body.scale()) + shift[s];
         target = outside(target, f, body);
 
         const Vec root = shoulder_at(f, body, s, target);
