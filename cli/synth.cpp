@@ -1,0 +1,109 @@
+// actformer synth: stand-ins for data sets that need a licence, in their own raw formats.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "ingest/synth/ntu/ntu.hpp"
+#include "kernels/error.hpp"
+
+namespace actformer::cli {
+namespace {
+
+using namespace ingest::synth;
+
+int number(std::string_view text, std::string_view all) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size())
+        throw Error("--actions {}: '{}' is no action; write numbers and ranges as in 1,2,50-60", all, text);
+    return value;
+}
+
+/// "1,2,50-60"
+std::vector<int> parse_actions(std::string_view all) {
+    std::vector<int> out;
+    for (auto rest = all; !rest.empty();) {
+        const auto comma = std::min(rest.find(','), rest.size());
+        const auto item = rest.substr(0, comma);
+        rest.remove_prefix(std::min(comma + 1, rest.size()));
+        const auto dash = item.find('-');
+        const int from = number(item.substr(0, dash), all);
+        const int to = dash == item.npos ? from : number(item.substr(dash + 1), all);
+        if (from < 1 || to > 120 || from > to)
+            throw Error("--actions {}: '{}' is outside 1 to 120 or runs backwards", all, item);
+        for (int a = from; a <= to; ++a) out.push_back(a);
+    }
+    return out;
+}
+
+struct Arguments {
+    NtuOptions options;
+    std::string actions;
+    bool json = false;
+};
+
+void print_summary(const NtuSummary& s, const Arguments& a, double seconds) {
+    if (a.json) {
+        const nlohmann::ordered_json out = {{"folder", a.options.folder.string()},
+                                            {"clips", s.clips},
+                                            {"written", s.written},
+                                            {"frames", s.frames},
+                                            {"bytes", s.bytes},
+                                            {"seed", a.options.seed},
+                                            {"seconds", seconds}};
+        fmt::print("{}\n", out.dump(2));
+        return;
+    }
+    fmt::print("{}: {} clips", a.options.folder.string(), s.clips);
+    if (s.written < s.clips) fmt::print(", {} of them there already", s.clips - s.written);
+    fmt::print("; wrote {} frames, {:.1f} MB in {}\n", s.frames, static_cast<double>(s.bytes) / 1e6,
+               duration(seconds));
+}
+
+void synth_ntu(Arguments& a) {
+    a.options.actions = parse_actions(a.actions);
+    const auto start = std::chrono::steady_clock::now();
+    NtuSummary summary;
+    {
+        Progress progress("synth", "clips", a.json);
+        const auto total = static_cast<double>(a.options.clips);
+        summary = synthesise_ntu(
+            a.options, [&](std::uint64_t done) { progress.update(static_cast<double>(done) / total, done); });
+    }
+    print_summary(summary, a,
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+void add_ntu(CLI::App* synth) {
+    auto* command = synth->add_subcommand(
+        "ntu", "Raw .skeleton files like those of NTU RGB+D: 120 actions, 1 or 2 persons");
+    auto a = std::make_shared<Arguments>();
+    command->add_option("-o,--out", a->options.folder, "Folder to write into")->required();
+    command->add_option("--clips", a->options.clips, "How many, the actions taking turns")
+        ->capture_default_str();
+    command->add_option("--seed", a->options.seed, "Another seed, other performances")->capture_default_str();
+    command->add_option("--actions", a->actions, "Only these, as in 1,2,50-60 (default: all 120)");
+    command->add_option("--threads", a->options.threads,
+                        "How many clips are made at once (default: one a processor)");
+    command->add_flag("--json", a->json, "Print JSON");
+    examples(command,
+             "  actformer synth ntu -o raw\n"
+             "  actformer synth ntu -o raw --clips 24000 --seed 7\n"
+             "  actformer synth ntu -o pairs --clips 2600 --actions 50-60,106-120\n");
+    command->callback([a] { synth_ntu(*a); });
+}
+
+}  // namespace
+
+void add_synth(CLI::App& app) {
+    auto* command = app.add_subcommand("synth", "Make licence-free stand-ins in the original raw formats");
+    command->require_subcommand(1);
+    add_ntu(command);
+}
+
+}  // namespace actformer::cli
