@@ -17,6 +17,7 @@ int run(int argc, char** argv) {
 
     using namespace actformer::cli;
     add_devices(app);
+    add_synth(app);
     add_ingest(app);
     add_inspect(app);
     add_export(app);
