@@ -13,7 +13,7 @@ namespace {
 
 std::string left_out_text(const std::string& kind) {
     if (kind == "broken") return "broken";
-    if (kind == "dropped") return "with too few persons for their class";
+    if (kind == "dropped") return "that no dataset here is for (too few persons, or another class)";
     if (kind == "missing") return "in the missing list";
     return "of a name that came before";
 }
