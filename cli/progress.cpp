@@ -24,7 +24,9 @@ Progress::Progress(std::string label, std::string unit, bool quiet)
       start_(Clock::now()),
       last_(start_) {}
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+    clear();
+}
 
 void Progress::update(double fraction, std::uint64_t count) {
     if (quiet_) return;
@@ -40,9 +42,10 @@ void Progress::update(double fraction, std::uint64_t count) {
     const double spent = std::chrono::duration<double>(now - start_).count();
     const double rate = static_cast<double>(count - start_count_) / spent;
     const double gained = fraction - start_fraction_;
-    const auto left = gained > 0 ? duration(spent * (1 - fraction) / gained) + " left" : std::string("starting");
-    const auto text =
-        fmt::format("{:3.0f} %  {} {}  {:.0f}/s  {}", 100 * std::min(fraction, 1.0), count, unit_, rate, left);
+    const auto left =
+        gained > 0 ? duration(spent * (1 - fraction) / gained) + " left" : std::string("starting");
+    const auto text = fmt::format("{:3.0f} %  {} {}  {:.0f}/s  {}", 100 * std::min(fraction, 1.0), count,
+                                  unit_, rate, left);
     if (terminal_) {
         constexpr int width = 28;
         const int full = static_cast<int>(width * std::clamp(fraction, 0.0, 1.0));

@@ -9,7 +9,9 @@
 namespace actformer::ingest {
 namespace {
 
-std::string hex_of(XXH128_hash_t h) { return fmt::format("{:016x}{:016x}", h.high64, h.low64); }
+std::string hex_of(XXH128_hash_t h) {
+    return fmt::format("{:016x}{:016x}", h.high64, h.low64);
+}
 
 }  // namespace
 
@@ -18,7 +20,9 @@ struct Checksum::State {
     ~State() { XXH3_freeState(hash); }
 };
 
-Checksum::Checksum() : state_(std::make_unique<State>()) { XXH3_128bits_reset(state_->hash); }
+Checksum::Checksum() : state_(std::make_unique<State>()) {
+    XXH3_128bits_reset(state_->hash);
+}
 Checksum::~Checksum() = default;
 
 Checksum& Checksum::add(std::string_view bytes) {
@@ -26,9 +30,13 @@ Checksum& Checksum::add(std::string_view bytes) {
     return *this;
 }
 
-std::string Checksum::hex() const { return hex_of(XXH3_128bits_digest(state_->hash)); }
+std::string Checksum::hex() const {
+    return hex_of(XXH3_128bits_digest(state_->hash));
+}
 
-std::string checksum(std::string_view bytes) { return hex_of(XXH3_128bits(bytes.data(), bytes.size())); }
+std::string checksum(std::string_view bytes) {
+    return hex_of(XXH3_128bits(bytes.data(), bytes.size()));
+}
 
 std::string checksum_file(const std::filesystem::path& path) {
     Checksum sum;

@@ -24,7 +24,9 @@ constexpr std::uint64_t files_a_group = 256, bytes_a_group = std::uint64_t{48} <
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// One raw file on its way through a group.
 struct Item {
@@ -112,8 +114,8 @@ class Ingest {
             }
             std::uint64_t kept = 0;
             for (const auto& tranche : workplace.finished()) kept += tranche.files;
-            throw Error("{} ({} files are done and kept in {}; the same command goes on from there)", e.what(), kept,
-                        aside.string());
+            throw Error("{} ({} files are done and kept in {}; the same command goes on from there)",
+                        e.what(), kept, aside.string());
         }
         summary_.seconds.wall = seconds_since(start);
         return summary_;
@@ -124,8 +126,8 @@ class Ingest {
         Checksum missing;
         for (const auto& name : std::set<std::string>(request_.missing.begin(), request_.missing.end()))
             missing.add(name + "\n");
-        return fmt::format("actformer {} | {} | raw {} | missing {}", ACTFORMER_VERSION, format_.settings(), source.listing(),
-                           missing.hex());
+        return fmt::format("actformer {} | {} | raw {} | missing {}", ACTFORMER_VERSION, format_.settings(),
+                           source.listing(), missing.hex());
     }
 
     fs::path folder_of(std::size_t dataset) const {
@@ -143,7 +145,8 @@ class Ingest {
                 return;
             }
         }
-        throw Error("{}: already there, and not from this command; remove it or choose another -o", request_.out.string());
+        throw Error("{}: already there, and not from this command; remove it or choose another -o",
+                    request_.out.string());
     }
 
     void go_on_from(const Workplace& workplace, Source& source) {
@@ -152,7 +155,8 @@ class Ingest {
             count(tranche);
             for (std::uint64_t i = 0; i < tranche.files; ++i)
                 if (!source.next_name(skipped))
-                    throw Error("the raw files changed while they were read; remove {}.partial", request_.out.string());
+                    throw Error("the raw files changed while they were read; remove {}.partial",
+                                request_.out.string());
             for (const auto& name : tranche.names) names_.insert(name);
         }
         summary_.resumed_files = files_done_;
@@ -190,9 +194,8 @@ class Ingest {
 
     void parse(Group& group) {
         std::vector<std::vector<char>> scratch(threads_);
-        parallel_for(group.items.size(), threads_, [&](std::size_t i, unsigned thread) {
-            parse(group.items[i], scratch[thread]);
-        });
+        parallel_for(group.items.size(), threads_,
+                     [&](std::size_t i, unsigned thread) { parse(group.items[i], scratch[thread]); });
     }
 
     void parse(Item& item, std::vector<char>& scratch) const {
@@ -272,8 +275,8 @@ class Ingest {
             fs::create_directories((workplace.data() / file).parent_path());
             shards_[d].image(format_.settings(), fingerprint_, [&](std::string_view image) {
                 write_whole(workplace.data() / file, image);
-                tranche_.shards.emplace_back(
-                    d, ShardEntry{file.string(), checksum(image), image.size(), shards_[d].clips(), shards_[d].frames()});
+                tranche_.shards.emplace_back(d, ShardEntry{file.string(), checksum(image), image.size(),
+                                                           shards_[d].clips(), shards_[d].frames()});
             });
             shards_[d] = ShardBuilder(format_.datasets()[d]);
         }
@@ -285,13 +288,15 @@ class Ingest {
     void finish(Workplace& workplace, const std::string& wanted) {
         std::string csv = "file,kind,reason\n";
         std::vector<DatasetFile> files;
-        for (const auto& header : format_.datasets()) files.push_back({header, format_.settings(), fingerprint_, {}});
+        for (const auto& header : format_.datasets())
+            files.push_back({header, format_.settings(), fingerprint_, {}});
         for (const auto& tranche : workplace.finished()) {
             summary_.files += tranche.files;
             summary_.text_bytes += tranche.text_bytes;
             for (const auto& [path, rejection] : tranche.left_out) {
                 ++summary_.left_out[std::string(kind_name(rejection.kind))];
-                csv += fmt::format("{},{},{}\n", csv_field(path), kind_name(rejection.kind), csv_field(rejection.reason));
+                csv += fmt::format("{},{},{}\n", csv_field(path), kind_name(rejection.kind),
+                                   csv_field(rejection.reason));
                 if (summary_.first_rejections.size() < 3 && rejection.kind == Rejection::Kind::broken)
                     summary_.first_rejections.push_back(path + ": " + rejection.reason);
             }
@@ -317,8 +322,12 @@ class Ingest {
     }
 
     void add_to_summary(const DatasetFile& file, const fs::path& folder) {
-        IngestSummary::PerDataset entry{(folder.empty() ? request_.out : request_.out / folder).string(), 0, 0, 0,
-                                        file.shards.size(), file.header.classes.size()};
+        IngestSummary::PerDataset entry{(folder.empty() ? request_.out : request_.out / folder).string(),
+                                        0,
+                                        0,
+                                        0,
+                                        file.shards.size(),
+                                        file.header.classes.size()};
         for (const auto& shard : file.shards) {
             entry.clips += shard.clips;
             entry.frames += shard.frames;
@@ -339,12 +348,13 @@ class Ingest {
                                     {"first_rejections", summary_.first_rejections}};
         json["datasets"] = nlohmann::ordered_json::array();
         for (const auto& d : summary_.datasets)
-            json["datasets"].push_back({{"folder", fs::path(d.folder).lexically_relative(request_.out).string()},
-                                        {"clips", d.clips},
-                                        {"frames", d.frames},
-                                        {"bytes", d.bytes},
-                                        {"shards", d.shards},
-                                        {"classes", d.classes}});
+            json["datasets"].push_back(
+                {{"folder", fs::path(d.folder).lexically_relative(request_.out).string()},
+                 {"clips", d.clips},
+                 {"frames", d.frames},
+                 {"bytes", d.bytes},
+                 {"shards", d.shards},
+                 {"classes", d.classes}});
         return json.dump(1) + "\n";
     }
 
@@ -355,8 +365,9 @@ class Ingest {
         summary_.left_out = json.at("left_out").get<std::map<std::string, std::uint64_t>>();
         summary_.first_rejections = json.at("first_rejections").get<std::vector<std::string>>();
         for (const auto& d : json.at("datasets"))
-            summary_.datasets.push_back({(request_.out / d.at("folder").get<std::string>()).lexically_normal().string(),
-                                         d.at("clips"), d.at("frames"), d.at("bytes"), d.at("shards"), d.at("classes")});
+            summary_.datasets.push_back(
+                {(request_.out / d.at("folder").get<std::string>()).lexically_normal().string(),
+                 d.at("clips"), d.at("frames"), d.at("bytes"), d.at("shards"), d.at("classes")});
     }
 
     const IngestRequest& request_;
@@ -376,10 +387,14 @@ class Ingest {
 
 std::string_view kind_name(Rejection::Kind kind) {
     switch (kind) {
-        case Rejection::Kind::broken: return "broken";
-        case Rejection::Kind::dropped: return "dropped";
-        case Rejection::Kind::missing: return "missing";
-        case Rejection::Kind::duplicate: return "duplicate";
+        case Rejection::Kind::broken:
+            return "broken";
+        case Rejection::Kind::dropped:
+            return "dropped";
+        case Rejection::Kind::missing:
+            return "missing";
+        case Rejection::Kind::duplicate:
+            return "duplicate";
     }
     return "unknown";
 }

@@ -18,7 +18,8 @@ class Buffer {
     Buffer(Device& device, std::size_t count) : device_(&device), count_(count) {
         try {
             // OpenCL has no empty buffers; one spare value stands for none.
-            memory_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE, std::max<std::size_t>(count, 1) * sizeof(T));
+            memory_ =
+                cl::Buffer(device.context(), CL_MEM_READ_WRITE, std::max<std::size_t>(count, 1) * sizeof(T));
         } catch (const cl::Error& e) {
             raise(device.info(), fmt::format("allocating {} bytes", count * sizeof(T)), e);
         }
@@ -76,7 +77,8 @@ T argument(T value) {
 
 /// Work-items a group along each dimension, found from what the device and the kernel allow. Groups depend on the range
 /// only through its order of magnitude: drivers that compile a kernel anew for every group size (PoCL) do so seldom.
-std::array<std::size_t, 2> group_size(const Device& device, const cl::Kernel& kernel, std::array<std::size_t, 2> range);
+std::array<std::size_t, 2> group_size(const Device& device, const cl::Kernel& kernel,
+                                      std::array<std::size_t, 2> range);
 
 /// Enqueues `kernel` over at least `range` (x, y) work-items, rounded up to whole groups: the kernel itself leaves out those
 /// beyond. Arguments are buffers and 32-bit numbers. An empty range launches nothing.

@@ -31,7 +31,8 @@ DatasetHeader family(const std::string& name, std::uint32_t persons) {
 
 std::uint32_t label_of(int action) {
     std::uint32_t label = 0;
-    for (int before = 1; before < action; ++before) label += ntu::two_persons(before) == ntu::two_persons(action);
+    for (int before = 1; before < action; ++before)
+        label += ntu::two_persons(before) == ntu::two_persons(action);
     return label;
 }
 
@@ -58,29 +59,35 @@ std::vector<Split> ntu_splits() {
         if (ntu::xsub_train(p)) performers.push_back(std::to_string(p));
     const Condition ntu60{"action", numbers(1, 60)};
     const std::vector<std::string> cameras{"2", "3"}, even = numbers(2, 32, 2);
-    return {{"xsub/train", {{"performer", performers}}},  {"xsub/test", {{"performer", performers, true}}},
-            {"xview/train", {ntu60, {"camera", cameras}}}, {"xview/test", {ntu60, {"camera", cameras, true}}},
-            {"xset/train", {{"setup", even}}},             {"xset/test", {{"setup", even, true}}}};
+    return {{"xsub/train", {{"performer", performers}}},
+            {"xsub/test", {{"performer", performers, true}}},
+            {"xview/train", {ntu60, {"camera", cameras}}},
+            {"xview/test", {ntu60, {"camera", cameras, true}}},
+            {"xset/train", {{"setup", even}}},
+            {"xset/test", {{"setup", even, true}}}};
 }
 
 NtuFormat::NtuFormat(kernels::Smoothing smoothing)
     : smoothing_(smoothing), datasets_{family("ntu-1p", 1), family("ntu-2p", 2)} {}
 
 std::string NtuFormat::settings() const {
-    return fmt::format("ntu: Gaussian smoothing sigma {} radius {} frames", smoothing_.sigma, smoothing_.radius);
+    return fmt::format("ntu: Gaussian smoothing sigma {} radius {} frames", smoothing_.sigma,
+                       smoothing_.radius);
 }
 
 ParsedClip NtuFormat::parse(const RawText& raw) const {
     const auto name = parse_ntu_name(raw.stem);
     if (!name)
-        return Rejection{Rejection::Kind::broken, "the name is not SsssCcccPpppRrrrAaaa with an action from 001 to 120"};
+        return Rejection{Rejection::Kind::broken,
+                         "the name is not SsssCcccPpppRrrrAaaa with an action from 001 to 120"};
     auto read = read_skeleton(raw.text);
     if (auto* rejection = std::get_if<Rejection>(&read)) return std::move(*rejection);
     auto& file = std::get<SkeletonFile>(read);
 
     auto clip = std::make_unique<NtuClip>();
     clip->dataset = ntu::two_persons(name->action) ? 1 : 0;
-    const auto persons = datasets_[clip->dataset].persons, seen = static_cast<std::uint32_t>(file.bodies.size());
+    const auto persons = datasets_[clip->dataset].persons,
+               seen = static_cast<std::uint32_t>(file.bodies.size());
     if (seen == 0) return Rejection{Rejection::Kind::broken, "no body in any frame"};
     if (!keep_most_seen(file.bodies, persons))
         return Rejection{Rejection::Kind::dropped, fmt::format("{} of {} persons seen", seen, persons)};

@@ -30,7 +30,8 @@ inline bool read_plain_number(const char* p, int length, double& value) {
     if (p[1] != '.' || places < 1 || places > 8 || lead > 9) return false;
     std::uint64_t digits;
     std::memcpy(&digits, p + 2, 8);
-    digits = (digits ^ 0x3030303030303030) << (8 * (8 - places));  // what is no digit of ours leaves at the top
+    digits = (digits ^ 0x3030303030303030)
+             << (8 * (8 - places));  // what is no digit of ours leaves at the top
     if ((digits | (digits + 0x7676767676767676)) & 0x8080808080808080) return false;
     digits = (digits * 10 + (digits >> 8)) & 0x00FF00FF00FF00FF;
     digits = (digits * 100 + (digits >> 16)) & 0x0000FFFF0000FFFF;
@@ -65,7 +66,8 @@ class Reader {
     SkeletonFile read() {
         SkeletonFile file;
         const auto frames = count("frames");
-        if (frames > static_cast<std::uint64_t>(end_ - at_) || frames > std::numeric_limits<std::uint32_t>::max())
+        if (frames > static_cast<std::uint64_t>(end_ - at_) ||
+            frames > std::numeric_limits<std::uint32_t>::max())
             fail("{} frames cannot be in this file: cut short, or not a skeleton file", frames);
         file.frames = static_cast<std::uint32_t>(frames);
         for (std::uint32_t frame = 0; frame < file.frames; ++frame) {
@@ -85,7 +87,9 @@ class Reader {
 
     /// Begins the next line; `what` names what it should hold.
     void begin_line(std::string_view what) {
-        if (at_ >= end_) throw Error("ends after line {}, in frame {}, where {} should be: cut short", line_, place_, what);
+        if (at_ >= end_)
+            throw Error("ends after line {}, in frame {}, where {} should be: cut short", line_, place_,
+                        what);
         ++line_;
         at_ = skip_blanks(at_, end_);
     }
@@ -94,7 +98,8 @@ class Reader {
         int more = 0;
         at_ = end_of_line(at_, end_, more);
         if (fields_so_far + more != fields_wanted) {
-            if (at_ == end_) fail("{} fields, not {}: the file is cut short", fields_so_far + more, fields_wanted);
+            if (at_ == end_)
+                fail("{} fields, not {}: the file is cut short", fields_so_far + more, fields_wanted);
             fail("{} fields, not {}", fields_so_far + more, fields_wanted);
         }
         at_ += at_ < end_;
@@ -102,7 +107,7 @@ class Reader {
 
     std::string_view token() const {
         const char* stop = at_;
-        while (stop < end_ && static_cast<unsigned char>(*stop) > ' ') ++stop;
+        while (stop<end_&& static_cast<unsigned char>(*stop)> ' ') ++stop;
         return {at_, static_cast<std::size_t>(stop - at_)};
     }
 
@@ -110,7 +115,7 @@ class Reader {
         begin_line(what);
         std::uint64_t value = 0;
         const auto [stop, error] = std::from_chars(at_, end_, value);
-        if (error != std::errc() || (stop < end_ && static_cast<unsigned char>(*stop) > ' '))
+        if (error != std::errc() || (stop<end_&& static_cast<unsigned char>(*stop)> ' '))
             fail("{} where the number of {} should be", in_quotes(token()), what);
         at_ = stop;
         end_line(1, 1);
@@ -154,7 +159,8 @@ class Reader {
     /// Limbs are taken here, in double, so that float32 serves for all that follows.
     void store(SkeletonFile& file, std::string_view id, std::uint32_t frame, const Joints& positions) {
         if (file.bodies.empty()) origin_ = positions[0];
-        auto body = std::find_if(file.bodies.begin(), file.bodies.end(), [&](const Body& b) { return b.id == id; });
+        auto body =
+            std::find_if(file.bodies.begin(), file.bodies.end(), [&](const Body& b) { return b.id == id; });
         if (body == file.bodies.end()) {
             body = file.bodies.insert(body, Body{id, {}, {}});
             const auto expected = std::min<std::size_t>(file.frames - frame, 4096);
