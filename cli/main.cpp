@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstdio>
 
@@ -21,7 +22,6 @@ int run(int argc, char** argv) {
     add_inspect(app);
     add_export(app);
     add_render(app);
-    add_bench(app);
 
     try {
         app.parse(argc, argv);
@@ -37,6 +37,11 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // Work goes batch by batch in buffers of the same sizes. Giving them back to the system in between would cost as much
+    // in page faults as reading the data does.
+    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_ARENA_MAX, 1);
     try {
         return run(argc, argv);
     } catch (const std::exception& e) {

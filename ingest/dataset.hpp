@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,11 @@ struct ShardEntry {
     std::uint64_t bytes = 0, clips = 0, frames = 0;
 };
 
+namespace hdf5 {
+class Reader;
+}
+
+/// Calls may come from one thread at a time.
 class Dataset {
   public:
     /// Reads dataset.json and the clips' metadata. Throws Error naming the file, what is wrong and the remedy.
@@ -62,17 +68,23 @@ class Dataset {
     /// Clip names as the public tools spell them: the action renumbered to the label for NTU, else the name.
     std::string public_name(std::size_t clip) const;
 
-    /// Recomputes every checksum and checks every offset and number. One line a fault; empty where all is well.
-    std::vector<std::string> verify() const;
-
   private:
+    const hdf5::Reader& shard_of(const Clip& clip) const;
+
     std::filesystem::path folder_;
     DatasetHeader header_;
     std::string fingerprint_;
     std::vector<ShardEntry> shards_;
     std::vector<Clip> clips_;
+    std::vector<std::size_t> first_clip_;  ///< of each shard
     std::map<std::string, std::size_t> by_name_;
+    mutable std::shared_ptr<hdf5::Reader> open_;  ///< the shard read last: clips are mostly read in order
+    mutable std::uint32_t open_shard_ = 0;
 };
+
+/// Recomputes every checksum and checks every offset and number of the dataset in `folder`. One line a fault; empty
+/// where all is well. Throws Error where dataset.json itself cannot be read.
+std::vector<std::string> verify_dataset(const std::filesystem::path& folder);
 
 /// Folders of the datasets at `path`: itself, or those directly inside (as `ingest ntu` lays them out). Throws Error where
 /// there are none.

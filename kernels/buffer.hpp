@@ -1,6 +1,7 @@
 // Typed arrays in device memory, and launching a kernel over them.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -73,16 +74,22 @@ T argument(T value) {
 }
 }  // namespace detail
 
-/// Enqueues `kernel` over `range` work-items with the given arguments (buffers, 32-bit numbers). The driver picks the
-/// work-group size. An empty range launches nothing.
+/// Work-items a group along each dimension, found from what the device and the kernel allow. Groups depend on the range
+/// only through its order of magnitude: drivers that compile a kernel anew for every group size (PoCL) do so seldom.
+std::array<std::size_t, 2> group_size(const Device& device, const cl::Kernel& kernel, std::array<std::size_t, 2> range);
+
+/// Enqueues `kernel` over at least `range` (x, y) work-items, rounded up to whole groups: the kernel itself leaves out those
+/// beyond. Arguments are buffers and 32-bit numbers. An empty range launches nothing.
 template <typename... Args>
-void launch(Device& device, cl::Kernel kernel, const cl::NDRange& range, const Args&... args) {
-    for (std::size_t d = 0; d < range.dimensions(); ++d)
-        if (range.get()[d] == 0) return;
+void launch(Device& device, cl::Kernel kernel, std::array<std::size_t, 2> range, const Args&... args) {
+    if (range[0] == 0 || range[1] == 0) return;
     try {
         cl_uint i = 0;
         (kernel.setArg(i++, detail::argument(args)), ...);
-        device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, range, cl::NullRange);
+        const auto group = group_size(device, kernel, range);
+        const cl::NDRange whole((range[0] + group[0] - 1) / group[0] * group[0],
+                                (range[1] + group[1] - 1) / group[1] * group[1]);
+        device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, whole, cl::NDRange(group[0], group[1]));
     } catch (const cl::Error& e) {
         raise(device.info(), fmt::format("running kernel {}", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>()), e);
     }

@@ -37,15 +37,22 @@ struct CleanedBatch {
     std::vector<float> bone_length;  ///< (clips, P, K) metres, the mean over frames; 0 for the root
 };
 
-/// (total frames, P, K, 3): detections interpolated linearly at every output frame, held before the first and
-/// after the last. `limbs` is (detections, K, 3).
-Buffer<float> fill_gaps(Device& device, const ClipBatch& batch, const Buffer<float>& limbs);
+/// Limbs of every frame on the device: values (total frames, P, pitch), the K*3 numbers of a body padded to a pitch that
+/// vector units like.
+struct LimbRows {
+    Buffer<float> values;
+    std::uint32_t pitch = 0;
+};
 
-/// The same shape, each coordinate smoothed over its clip's frames; edges mirrored with the edge sample repeated.
-Buffer<float> smooth(Device& device, const ClipBatch& batch, const Buffer<float>& limbs, const Smoothing& how);
+/// Detections interpolated linearly at every output frame, held before the first and after the last. `limbs` is
+/// (detections, K, 3).
+LimbRows fill_gaps(Device& device, const ClipBatch& batch, const Buffer<float>& limbs);
+
+/// Each coordinate smoothed over its clip's frames; edges mirrored with the edge sample repeated.
+LimbRows smooth(Device& device, const ClipBatch& batch, const LimbRows& limbs, const Smoothing& how);
 
 /// Each limb divided by (its length + 1e-4); the mean root over a clip's frames and persons taken from its roots.
-CleanedBatch normalise(Device& device, const ClipBatch& batch, const Buffer<float>& limbs);
+CleanedBatch normalise(Device& device, const ClipBatch& batch, const LimbRows& limbs);
 
 /// The three in turn. `limbs` is (detections, K, 3).
 CleanedBatch clean(Device& device, const ClipBatch& batch, const Buffer<float>& limbs, const Smoothing& how);

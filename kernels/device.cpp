@@ -1,10 +1,12 @@
 #include "kernels/device.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
 
+#include "kernels/buffer.hpp"
 #include "kernels/program_cache.hpp"
 #include "kernels/sources.hpp"
 
@@ -135,6 +137,15 @@ cl::Kernel Device::kernel_from(std::string_view text, std::string_view label, co
     } catch (const cl::Error& e) {
         raise(info_, fmt::format("making kernel {} of {}", name, label), e);
     }
+}
+
+std::array<std::size_t, 2> group_size(const Device& device, const cl::Kernel& kernel,
+                                      std::array<std::size_t, 2> range) {
+    // Enough items to fill a GPU's wavefronts, few enough for many groups on a CPU's cores.
+    constexpr std::size_t wanted = 128;
+    const auto target = std::min(wanted, kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device.handle()));
+    const std::size_t x = std::min(target, std::bit_ceil(range[0]));
+    return {x, std::max<std::size_t>(1, std::min(target / x, std::bit_ceil(range[1])))};
 }
 
 void raise(const DeviceInfo& device, std::string_view what, const cl::Error& error) {

@@ -43,6 +43,7 @@ class Device {
     Device& operator=(Device&&) noexcept;
 
     const DeviceInfo& info() const { return info_; }
+    const cl::Device& handle() const { return device_; }
     const cl::Context& context() const { return context_; }
     cl::CommandQueue& queue() { return queue_; }
 

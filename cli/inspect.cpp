@@ -1,0 +1,124 @@
+// actformer inspect: what is in a dataset, and whether it is whole.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/format.hpp"
+#include "ingest/dataset.hpp"
+#include "kernels/error.hpp"
+
+namespace actformer::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Lengths {
+    std::uint32_t shortest = 0, median = 0, longest = 0;
+    std::uint64_t total = 0;
+};
+
+Lengths lengths_of(const ingest::Dataset& dataset) {
+    std::vector<std::uint32_t> all;
+    Lengths lengths;
+    for (const auto& clip : dataset.clips()) {
+        all.push_back(clip.frames);
+        lengths.total += clip.frames;
+    }
+    if (all.empty()) return lengths;
+    std::sort(all.begin(), all.end());
+    lengths.shortest = all.front();
+    lengths.median = all[all.size() / 2];
+    lengths.longest = all.back();
+    return lengths;
+}
+
+std::vector<std::size_t> clips_a_class(const ingest::Dataset& dataset) {
+    std::vector<std::size_t> counts(dataset.header().classes.size(), 0);
+    for (const auto& clip : dataset.clips()) ++counts[clip.label];
+    return counts;
+}
+
+void print_text(const ingest::Dataset& dataset, bool list_classes) {
+    const auto& header = dataset.header();
+    const auto lengths = lengths_of(dataset);
+    const auto counts = clips_a_class(dataset);
+    std::uint64_t size = 0;
+    for (const auto& shard : dataset.shards()) size += shard.bytes;
+    fmt::print("{} ({})\n", dataset.folder().string(), header.name);
+    fmt::print("  {} of {}, {} with none; {} joints, {}, {:g} frames a second\n", counted(dataset.clips().size(), "clip"),
+               counted(counts.size(), "class"), std::count(counts.begin(), counts.end(), 0U), header.topology.joints(),
+               counted(header.persons, "person"), header.fps);
+    fmt::print("  {} ({} to {} a clip, median {}) in {}, {}\n", counted(lengths.total, "frame"), lengths.shortest,
+               lengths.longest, lengths.median, counted(dataset.shards().size(), "shard"), bytes(size));
+    for (const auto& split : header.splits)
+        fmt::print("  split {:<14} {}\n", split.name, counted(dataset.split(split.name).size(), "clip"));
+    if (list_classes)
+        for (std::size_t c = 0; c < counts.size(); ++c)
+            fmt::print("  class {:>3}  {:<40} {}\n", c, header.classes[c], counted(counts[c], "clip"));
+}
+
+Json to_json(const ingest::Dataset& dataset) {
+    const auto& header = dataset.header();
+    const auto lengths = lengths_of(dataset);
+    const auto counts = clips_a_class(dataset);
+    Json splits = Json::object(), classes = Json::object();
+    for (const auto& split : header.splits) splits[split.name] = dataset.split(split.name).size();
+    for (std::size_t c = 0; c < counts.size(); ++c) classes[header.classes[c]] = counts[c];
+    return {{"folder", dataset.folder().string()},
+            {"name", header.name},
+            {"source", dataset.fingerprint()},
+            {"clips", dataset.clips().size()},
+            {"frames", {{"total", lengths.total}, {"shortest", lengths.shortest}, {"median", lengths.median},
+                        {"longest", lengths.longest}}},
+            {"persons", header.persons},
+            {"joints", header.topology.names},
+            {"parents", header.topology.parents},
+            {"fps", header.fps},
+            {"shards", dataset.shards().size()},
+            {"splits", splits},
+            {"classes", classes}};
+}
+
+void verify(const std::vector<std::filesystem::path>& folders) {
+    for (const auto& folder : folders) {
+        const auto faults = ingest::verify_dataset(folder);
+        for (std::size_t i = 1; i < faults.size(); ++i) fmt::print(stderr, "{}\n", faults[i]);
+        if (!faults.empty())
+            throw Error("{}{}; ingest the raw data again", faults[0],
+                        faults.size() > 1 ? fmt::format(" ({} more above)", faults.size() - 1) : "");
+    }
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& app) {
+    struct Options {
+        std::string dataset;
+        bool verify = false, json = false, classes = false;
+    };
+    auto options = std::make_shared<Options>();
+    auto* command = app.add_subcommand("inspect", "Say what is in a dataset, and check that it is whole");
+    command->add_option("dataset", options->dataset, "Dataset folder, or a folder of them")->required()->type_name("DATASET");
+    command->add_flag("--verify", options->verify, "Read everything and compare every checksum");
+    command->add_flag("--classes", options->classes, "List the classes and their clips");
+    command->add_flag("--json", options->json, "Print JSON");
+    examples(command, "  actformer inspect ntu\n  actformer inspect ntu/ntu-2p --verify --classes\n");
+    command->callback([options] {
+        const auto folders = ingest::datasets_at(options->dataset);
+        if (options->verify) verify(folders);
+        Json json = Json::array();
+        for (const auto& folder : folders) {
+            const ingest::Dataset dataset(folder);
+            if (options->json)
+                json.push_back(to_json(dataset));
+            else
+                print_text(dataset, options->classes);
+        }
+        if (options->json) fmt::print("{}\n", (json.size() == 1 ? json[0] : json).dump(2));
+        if (options->verify && !options->json) fmt::print("verified: every checksum, offset and number is right\n");
+    });
+}
+
+}  // namespace actformer::cli

@@ -1,0 +1,104 @@
+// actformer render: motions as a contact sheet, a GIF or an MP4.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/progress.hpp"
+#include "reports/film.hpp"
+#include "reports/gather.hpp"
+#include "reports/render.hpp"
+
+namespace actformer::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using reports::Figure;
+
+struct Options {
+    std::vector<fs::path> inputs;
+    fs::path output;
+    reports::Wanted wanted;
+    std::string view = "three-quarter";
+    int size = 0, columns = 8;
+    double fps = 0;
+};
+
+void render(const Options& options) {
+    const auto kind = reports::picture_kind(options.output);
+    {
+        const reports::Aside probe(options.output);
+    }  // what cannot be written is said before the work, not after
+    reports::Layout layout;
+    layout.view = reports::parse_view(options.view);
+    layout.columns = options.columns;
+    layout.fps = options.fps;
+
+    std::vector<Figure> figures;
+    for (const auto& path : options.inputs)
+        for (auto& figure : reports::gather(path, options.wanted)) figures.push_back(std::move(figure));
+    layout.size = options.size > 0                                           ? options.size
+                  : kind != reports::PictureKind::png && figures.size() == 1 ? 480
+                                                                             : 320;
+
+    Progress progress("render", "frames");
+    std::size_t frames = 0;
+    reports::render(figures, layout, options.output, [&](std::size_t done, std::size_t all) {
+        frames = all;
+        progress.update(static_cast<double>(done) / static_cast<double>(all), done);
+    });
+    progress.clear();
+    std::error_code ignored;
+    const auto kilobytes = static_cast<double>(fs::file_size(options.output, ignored)) / 1000;
+    fmt::print("{}: {} motion{}{}, {:.0f} kB\n", options.output.string(), figures.size(),
+               figures.size() == 1 ? "" : "s", frames > 0 ? fmt::format(", {} frames", frames) : "",
+               kilobytes);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+    auto* command = app.add_subcommand("render", "Draw motions: a contact sheet (.png), a .gif or an .mp4");
+    auto options = std::make_shared<Options>();
+    command->add_option("INPUT", options->inputs, "Datasets, motions files in the public layout (.h5), or raw .skeleton files")
+        ->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     "What to write: .png a contact sheet, .gif or .mp4 moving")
+        ->required();
+    command->add_option("--clip", options->wanted.clips, "Draw this clip; may be given again")
+        ->allow_extra_args(false);
+    command->add_option("--split", options->wanted.split, "Draw from this split of the dataset")
+        ->capture_default_str();
+    command->add_option("--class", options->wanted.label, "Draw from this class: its name, or its number from 0");
+    command->add_option("--count", options->wanted.count, "Motions of each INPUT, spread over its classes")
+        ->check(CLI::Range(1, 400))
+        ->capture_default_str();
+    command->add_option("--bones", options->wanted.bones,
+                        "Dataset whose skeleton and mean limb lengths a motions file is drawn with");
+    command
+        ->add_option("--view", options->view,
+                     "front, side, back, top, orbit, three-quarter, or AZIMUTH,ELEVATION in degrees")
+        ->capture_default_str();
+    command
+        ->add_option("--size", options->size,
+                     "Height of a figure in pixels (default 320; 480 for one that moves)")
+        ->check(CLI::Range(40, 4000));
+    command->add_option("--columns", options->columns, "Snapshots in a row of the contact sheet")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    command
+        ->add_option("--fps", options->fps,
+                     "Frames a second of a .gif or .mp4 (default: the motion's; a .gif has at most 50)")
+        ->check(CLI::Range(0.1, 1000.0));
+    examples(command,
+             "  actformer render data/ntu-1p -o sheet.png\n"
+             "  actformer render raw/S001C001P001R001A001.skeleton -o raw.png\n"
+             "  actformer render data/ntu-2p --class handshaking --count 4 -o handshakes.gif\n"
+             "  actformer render data/ntu-1p --clip S001C001P001R001A001 --view orbit -o drink.mp4\n"
+             "  actformer render generated.h5 --bones data/ntu-1p --count 9 -o generated.mp4\n");
+    command->callback([options] { render(*options); });
+}
+
+}  // namespace actformer::cli

@@ -1,0 +1,252 @@
+#include "ingest/hdf5.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "kernels/error.hpp"
+
+namespace actformer::ingest::hdf5 {
+namespace {
+
+/// The library would print its own stack of errors beside ours, and at exit complain of files that a full disk left open.
+void silence() {
+    static const bool once = H5dont_atexit() >= 0;
+    static_cast<void>(once);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Handle checked(hid_t id, herr_t (*close)(hid_t), const char* what) {
+    if (id < 0) throw Error("HDF5: {} failed; is there enough memory?", what);
+    return {id, close};
+}
+
+Handle string_type(std::size_t size) {
+    auto type = checked(H5Tcopy(H5T_C_S1), H5Tclose, "making a string type");
+    H5Tset_size(type.get(), std::max<std::size_t>(size, 1));
+    H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+    return type;
+}
+
+herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* names) {
+    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+    return 0;
+}
+
+}  // namespace
+
+Handle::~Handle() {
+    if (id_ >= 0 && close_) close_(id_);
+}
+
+Handle::Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+}
+
+Reader::Reader(const std::filesystem::path& path) : path_(path) {
+    silence();
+    if (!std::filesystem::exists(path)) throw Error("{}: no such file", path.string());
+    file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    if (!file_) throw Error("{}: not an HDF5 file, or damaged", path.string());
+}
+
+std::vector<std::string> Reader::names() const {
+    std::vector<std::string> names;
+    if (H5Literate(file_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name, &names) < 0)
+        throw Error("{}: its list of contents cannot be read: damaged", path_.string());
+    return names;
+}
+
+bool Reader::has(const std::string& name) const {
+    for (auto slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1))
+        if (H5Lexists(file_.get(), name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+    return H5Lexists(file_.get(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+bool Reader::is_array(const std::string& name) const {
+    H5O_info_t info;
+    return H5Oget_info_by_name(file_.get(), name.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5O_TYPE_DATASET;
+}
+
+Handle Reader::open(const std::string& name) const {
+    if (!has(name)) throw Error("{}: holds no '{}'", path_.string(), name);
+    Handle set(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!set) throw Error("{}: '{}' is no array, or damaged", path_.string(), name);
+    return set;
+}
+
+Shape Reader::shape(const std::string& name) const {
+    const auto set = open(name);
+    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    const int rank = space ? H5Sget_simple_extent_ndims(space.get()) : -1;
+    if (rank < 0) throw Error("{}: '{}' has no shape: damaged", path_.string(), name);
+    Shape shape(rank);
+    H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
+    return shape;
+}
+
+std::size_t Reader::elements(const Shape& shape) {
+    return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+}
+
+void Reader::read_into(const std::string& name, hid_t type, void* to) const {
+    const auto set = open(name);
+    const Handle stored(H5Dget_type(set.get()), H5Tclose);
+    const auto kind = H5Tget_class(stored.get());
+    if (kind != H5T_INTEGER && kind != H5T_FLOAT) throw Error("{}: '{}' holds no numbers", path_.string(), name);
+    if (H5Dread(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0)
+        throw Error("{}: '{}' cannot be read: damaged", path_.string(), name);
+}
+
+std::vector<float> Reader::read_rows(const std::string& name, std::uint64_t first, std::uint64_t count) const {
+    const auto set = open(name);
+    auto extent = shape(name);
+    if (extent.empty() || first + count > extent[0] || first + count < first)
+        throw Error("{}: '{}' has no rows {} to {}", path_.string(), name, first, first + count);
+    Shape start(extent.size(), 0);
+    start[0] = first;
+    extent[0] = count;
+    std::vector<float> values(elements(extent));
+    if (values.empty()) return values;
+    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    const Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
+    if (H5Dread(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
+        throw Error("{}: '{}' cannot be read at row {}: damaged; see actformer inspect --verify", path_.string(), name,
+                    first);
+    return values;
+}
+
+std::vector<std::string> Reader::read_strings(const std::string& name) const {
+    const auto set = open(name);
+    const Handle stored(H5Dget_type(set.get()), H5Tclose);
+    if (H5Tget_class(stored.get()) != H5T_STRING || H5Tis_variable_str(stored.get()) != 0)
+        throw Error("{}: '{}' holds no fixed-length strings", path_.string(), name);
+    const auto count = elements(shape(name)), size = H5Tget_size(stored.get());
+    std::vector<char> text(count * size);
+    if (H5Dread(set.get(), stored.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
+        throw Error("{}: '{}' cannot be read: damaged", path_.string(), name);
+    std::vector<std::string> values;
+    values.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const char* begin = text.data() + i * size;
+        values.emplace_back(begin, std::find(begin, begin + size, '\0'));
+    }
+    return values;
+}
+
+std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {
+    if (H5Aexists(file_.get(), name.c_str()) <= 0) throw Error("{}: has no attribute '{}'", path_.string(), name);
+    const Handle attribute(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
+    const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
+    if (!type || H5Tget_class(type.get()) != H5T_INTEGER || !space)
+        throw Error("{}: attribute '{}' holds no whole numbers", path_.string(), name);
+    std::vector<std::int64_t> values(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
+    if (!values.empty() && H5Aread(attribute.get(), H5T_NATIVE_INT64, values.data()) < 0)
+        throw Error("{}: attribute '{}' cannot be read: damaged", path_.string(), name);
+    return values;
+}
+
+Writer::Writer(std::size_t expected_bytes) {
+    silence();
+    const std::size_t step = expected_bytes + expected_bytes / 64 + (std::size_t{1} << 20);  // so that it grows once
+    const auto access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making a file in memory");
+    H5Pset_fapl_core(access.get(), step, false);
+    file_ = checked(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose, "making a file in memory");
+}
+
+Writer::Writer(const std::filesystem::path& path) {
+    silence();
+    file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+    if (!file_) throw Error("{}: cannot be written; is the folder there, and yours to write?", path.string());
+}
+
+bool Writer::finish() {
+    const bool written = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0;
+    file_ = {};
+    return written;
+}
+
+Handle Writer::create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk) {
+    const auto space = checked(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
+                               "describing an array");
+    const auto layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describing an array");
+    H5Pset_obj_track_times(layout.get(), false);  // the same data must give the same bytes
+    if (rows_a_chunk > 0 && shape[0] > 0) {
+        auto chunk = shape;
+        chunk[0] = std::min(rows_a_chunk, shape[0]);
+        H5Pset_chunk(layout.get(), static_cast<int>(chunk.size()), chunk.data());
+        H5Pset_fletcher32(layout.get());
+    }
+    const auto links = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "describing an array");
+    H5Pset_create_intermediate_group(links.get(), 1);
+    return checked(H5Dcreate2(file_.get(), name.c_str(), type, space.get(), links.get(), layout.get(), H5P_DEFAULT), H5Dclose,
+                   "adding an array");
+}
+
+void Writer::write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
+                        hsize_t rows_a_chunk) {
+    const auto set = create(name, type, shape, rows_a_chunk);
+    if (std::find(shape.begin(), shape.end(), 0U) == shape.end() &&
+        H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+        throw Error("HDF5: writing '{}' failed; is there space left?", name);
+}
+
+void Writer::write_pieces(const std::string& name, const Shape& shape, const std::vector<std::span<const float>>& pieces,
+                          hsize_t rows_a_chunk) {
+    const auto set = create(name, H5T_NATIVE_FLOAT, shape, rows_a_chunk);
+    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    const auto row = std::accumulate(shape.begin() + 1, shape.end(), hsize_t{1}, std::multiplies<>());
+    Shape start(shape.size(), 0), part = shape;
+    for (const auto& piece : pieces) {
+        part[0] = piece.size() / row;
+        if (part[0] == 0) continue;
+        const Handle memory(H5Screate_simple(static_cast<int>(part.size()), part.data(), nullptr), H5Sclose);
+        H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
+        if (H5Dwrite(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, piece.data()) < 0)
+            throw Error("HDF5: writing '{}' failed; is there enough memory?", name);
+        start[0] += part[0];
+    }
+}
+
+void Writer::write_strings(const std::string& name, const std::vector<std::string>& values) {
+    std::size_t size = 1;
+    for (const auto& value : values) size = std::max(size, value.size());
+    std::string packed(values.size() * size, '\0');
+    for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(packed.data() + i * size, size);
+    write_from(name, string_type(size).get(), {values.size()}, packed.data(), 0);
+}
+
+void Writer::attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value) {
+    const auto attribute = checked(H5Acreate2(file_.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+                                   H5Aclose, "adding an attribute");
+    H5Awrite(attribute.get(), type, value);
+}
+
+void Writer::attribute(const std::string& name, const std::string& value) {
+    attribute_from(name, string_type(value.size()).get(), Handle(H5Screate(H5S_SCALAR), H5Sclose), value.data());
+}
+
+void Writer::attribute(const std::string& name, std::int64_t value) {
+    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate(H5S_SCALAR), H5Sclose), &value);
+}
+
+void Writer::attribute(const std::string& name, const std::vector<std::int64_t>& values) {
+    const hsize_t count = values.size();
+    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose), values.data());
+}
+
+void Writer::image(const std::function<void(std::string_view)>& use) {
+    void* memory = nullptr;  // of the file itself: a copy would cost as much again
+    hsize_t size = 0;
+    if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 || H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &memory) < 0 ||
+        H5Fget_filesize(file_.get(), &size) < 0)
+        throw Error("HDF5: a file in memory cannot be read back; is there enough memory?");
+    use({*static_cast<const char**>(memory), size});
+}
+
+}  // namespace actformer::ingest::hdf5

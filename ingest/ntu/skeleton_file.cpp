@@ -1,0 +1,204 @@
+#include "ingest/ntu/skeleton_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "ingest/text/lines.hpp"
+#include "ingest/text/number.hpp"
+#include "ingest/text/printable.hpp"
+#include "kernels/error.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+constexpr int joint_fields = 12;
+constexpr int body_fields = 10;
+constexpr double farthest = 1e6;  // metres; float32 limbs stay finite and exact enough far beyond any room
+
+using Joints = std::array<std::array<double, 3>, ntu_joints>;
+
+/// A number as the sensor's software nearly always writes it, [-]D.DDDDDDDD with up to eight digits behind the point, in
+/// `length` characters. False for any other, however sound. Needs 16 readable bytes.
+inline bool read_plain_number(const char* p, int length, double& value) {
+    const bool negative = *p == '-';
+    p += negative;
+    const int places = length - negative - 2;
+    const auto lead = static_cast<std::uint64_t>(p[0] - '0');
+    if (p[1] != '.' || places < 1 || places > 8 || lead > 9) return false;
+    std::uint64_t digits;
+    std::memcpy(&digits, p + 2, 8);
+    digits = (digits ^ 0x3030303030303030) << (8 * (8 - places));  // what is no digit of ours leaves at the top
+    if ((digits | (digits + 0x7676767676767676)) & 0x8080808080808080) return false;
+    digits = (digits * 10 + (digits >> 8)) & 0x00FF00FF00FF00FF;
+    digits = (digits * 100 + (digits >> 16)) & 0x0000FFFF0000FFFF;
+    digits = (digits * 10000 + (digits >> 32)) & 0x00000000FFFFFFFF;
+    const std::uint64_t power = detail::whole_powers_of_ten[places];
+    const double magnitude = static_cast<double>(lead * power + digits) / static_cast<double>(power);
+    value = negative ? -magnitude : magnitude;
+    return true;
+}
+
+/// The first three fields of a line as numbers, found by their blanks all at once. False where they are not plainly
+/// three numbers within 64 characters. Needs 80 readable bytes.
+inline bool read_plain_coordinates(const char* line, std::array<double, 3>& joint) {
+    const auto blank = masks_of_64(line).blank;
+    auto begins = ~blank & (blank << 1 | 1), ends = blank & ~(blank << 1);
+    for (double& value : joint) {
+        if (!begins || !ends) return false;
+        const int begin = std::countr_zero(begins), end = std::countr_zero(ends);
+        if (!read_plain_number(line + begin, end - begin, value) &&
+            (parse_number(line + begin, value) != line + end || !(std::abs(value) < farthest)))
+            return false;
+        begins &= begins - 1;
+        ends &= ends - 1;
+    }
+    return true;
+}
+
+class Reader {
+  public:
+    explicit Reader(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
+
+    SkeletonFile read() {
+        SkeletonFile file;
+        const auto frames = count("frames");
+        if (frames > static_cast<std::uint64_t>(end_ - at_) || frames > std::numeric_limits<std::uint32_t>::max())
+            fail("{} frames cannot be in this file: cut short, or not a skeleton file", frames);
+        file.frames = static_cast<std::uint32_t>(frames);
+        for (std::uint32_t frame = 0; frame < file.frames; ++frame) {
+            place_ = frame;
+            const auto bodies = count("bodies");
+            for (std::uint64_t b = 0; b < bodies; ++b) read_body(file, frame);
+        }
+        refuse_leftovers();
+        return file;
+    }
+
+  private:
+    template <typename... Args>
+    [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) const {
+        throw Error("line {}: {}", line_, fmt::format(text, std::forward<Args>(args)...));
+    }
+
+    /// Begins the next line; `what` names what it should hold.
+    void begin_line(std::string_view what) {
+        if (at_ >= end_) throw Error("ends after line {}, in frame {}, where {} should be: cut short", line_, place_, what);
+        ++line_;
+        at_ = skip_blanks(at_, end_);
+    }
+
+    void end_line(int fields_so_far, int fields_wanted) {
+        int more = 0;
+        at_ = end_of_line(at_, end_, more);
+        if (fields_so_far + more != fields_wanted) {
+            if (at_ == end_) fail("{} fields, not {}: the file is cut short", fields_so_far + more, fields_wanted);
+            fail("{} fields, not {}", fields_so_far + more, fields_wanted);
+        }
+        at_ += at_ < end_;
+    }
+
+    std::string_view token() const {
+        const char* stop = at_;
+        while (stop < end_ && static_cast<unsigned char>(*stop) > ' ') ++stop;
+        return {at_, static_cast<std::size_t>(stop - at_)};
+    }
+
+    std::uint64_t count(std::string_view what) {
+        begin_line(what);
+        std::uint64_t value = 0;
+        const auto [stop, error] = std::from_chars(at_, end_, value);
+        if (error != std::errc() || (stop < end_ && static_cast<unsigned char>(*stop) > ' '))
+            fail("{} where the number of {} should be", in_quotes(token()), what);
+        at_ = stop;
+        end_line(1, 1);
+        return value;
+    }
+
+    void read_body(SkeletonFile& file, std::uint32_t frame) {
+        begin_line("a body");
+        const auto id = token();
+        at_ += id.size();
+        end_line(1, body_fields);
+        const auto joints = count("joints");
+        if (joints != ntu_joints) fail("{} joints, not {}", joints, ntu_joints);
+        Joints positions;
+        for (auto& joint : positions) read_joint(joint);
+        store(file, id, frame, positions);
+    }
+
+    void read_joint(std::array<double, 3>& joint) {
+        begin_line("a joint");
+        int fields = 0;
+        const char* const stop = end_of_line(at_, end_, fields);
+        if (fields == joint_fields && read_plain_coordinates(at_, joint))
+            at_ = stop + (stop < end_);
+        else
+            read_odd_joint(joint);
+    }
+
+    /// Field by field, to take what is unusual and to name what is wrong.
+    void read_odd_joint(std::array<double, 3>& joint) {
+        for (double& value : joint) {
+            at_ = skip_blanks(at_, end_);
+            const char* stop = at_ < end_ ? parse_number(at_, value) : nullptr;
+            if (!stop || static_cast<unsigned char>(*stop) > ' ' || !(std::abs(value) < farthest))
+                fail("{} where a coordinate in metres should be", in_quotes(token()));
+            at_ = stop;
+        }
+        end_line(3, joint_fields);
+    }
+
+    /// Limbs are taken here, in double, so that float32 serves for all that follows.
+    void store(SkeletonFile& file, std::string_view id, std::uint32_t frame, const Joints& positions) {
+        if (file.bodies.empty()) origin_ = positions[0];
+        auto body = std::find_if(file.bodies.begin(), file.bodies.end(), [&](const Body& b) { return b.id == id; });
+        if (body == file.bodies.end()) {
+            body = file.bodies.insert(body, Body{id, {}, {}});
+            const auto expected = std::min<std::size_t>(file.frames - frame, 4096);
+            body->times.reserve(expected);
+            body->limbs.reserve(expected * ntu_joints * 3);
+        }
+        if (body->times.empty() || body->times.back() != frame) {
+            body->times.push_back(frame);
+            body->limbs.resize(body->limbs.size() + ntu_joints * 3);
+        }
+        float* limb = &*(body->limbs.end() - ntu_joints * 3);
+        const auto& parents = ntu25().parents;
+        for (std::size_t j = 0; j < ntu_joints; ++j)
+            for (std::size_t d = 0; d < 3; ++d, ++limb)
+                *limb = static_cast<float>(positions[j][d] - (j == 0 ? origin_ : positions[parents[j]])[d]);
+    }
+
+    void refuse_leftovers() {
+        while (at_ < end_) {
+            ++line_;
+            int fields = 0;
+            at_ = end_of_line(at_, end_, fields);
+            if (fields) fail("text after the last frame that line 1 counts");
+            ++at_;
+        }
+    }
+
+    const char* at_;
+    const char* end_;
+    std::uint64_t line_ = 0;
+    std::uint32_t place_ = 0;
+    std::array<double, 3> origin_{};
+};
+
+}  // namespace
+
+std::variant<SkeletonFile, Rejection> read_skeleton(std::string_view text) {
+    text = without_bom(text);
+    if (text.empty()) return Rejection{Rejection::Kind::broken, "an empty file"};
+    try {
+        return Reader(text).read();
+    } catch (const Error& e) {
+        return Rejection{Rejection::Kind::broken, e.what()};
+    }
+}
+
+}  // namespace actformer::ingest
