@@ -26,6 +26,17 @@ std::size_t make_text(const ClipId& clip, std::uint64_t seed, std::string& text)
     return recording.size();
 }
 
+void write(const fs::path& file, const std::string& text) {
+    try {
+        write_whole(file, text);
+    } catch (const Error& e) {
+        throw Error(
+            "{}; free some space or make the folder writable, and run the command again: it goes on where it "
+            "was",
+            e.what());
+    }
+}
+
 std::vector<int> checked_actions(const NtuOptions& options) {
     auto actions = options.actions;
     if (actions.empty()) {
@@ -54,7 +65,7 @@ void claim_folder(const NtuOptions& options) {
     const auto file = options.folder / "synth.json";
     const nlohmann::ordered_json mine = {
         {"made_by", "actformer synth ntu"}, {"version", ACTFORMER_VERSION}, {"seed", options.seed}};
-    if (!fs::exists(file)) return write_whole(file, mine.dump(2) + "\n");
+    if (!fs::exists(file)) return write(file, mine.dump(2) + "\n");
     std::ifstream in(file);
     const auto theirs = nlohmann::json::parse(in, nullptr, false);
     if (!theirs.is_object() || theirs != nlohmann::json(mine))
@@ -79,7 +90,7 @@ NtuSummary synthesise_ntu(const NtuOptions& options, const std::function<void(st
         const bool there = fs::exists(file);
         auto& text = texts[thread];
         const std::size_t frames = there ? 0 : make_text(clip, options.seed, text);
-        if (!there) write_whole(file, text);
+        if (!there) write(file, text);
 
         const std::lock_guard lock(counting);
         summary.written += there ? 0 : 1;
