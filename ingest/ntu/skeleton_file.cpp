@@ -20,12 +20,15 @@ constexpr double farthest = 1e6;  // metres; float32 limbs stay finite and exact
 
 using Joints = std::array<std::array<double, 3>, ntu_joints>;
 
+constexpr double tenths[] = {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+
 /// A number as the sensor's software nearly always writes it, [-]D.DDDDDDDD with up to eight digits behind the point, in
 /// `length` characters. False for any other, however sound. Needs 16 readable bytes.
 inline bool read_plain_number(const char* p, int length, double& value) {
-    const bool negative = *p == '-';
+    // 1 for a minus, in arithmetic: signs follow no pattern, and a branch on them would be mispredicted too often.
+    const auto negative = (static_cast<std::uint32_t>(static_cast<unsigned char>(*p) ^ '-') - 1U) >> 31;
     p += negative;
-    const int places = length - negative - 2;
+    const int places = length - static_cast<int>(negative) - 2;
     const auto lead = static_cast<std::uint64_t>(p[0] - '0');
     if (p[1] != '.' || places < 1 || places > 8 || lead > 9) return false;
     std::uint64_t digits;
@@ -36,26 +39,33 @@ inline bool read_plain_number(const char* p, int length, double& value) {
     digits = (digits * 10 + (digits >> 8)) & 0x00FF00FF00FF00FF;
     digits = (digits * 100 + (digits >> 16)) & 0x0000FFFF0000FFFF;
     digits = (digits * 10000 + (digits >> 32)) & 0x00000000FFFFFFFF;
-    const std::uint64_t power = detail::whole_powers_of_ten[places];
-    const double magnitude = static_cast<double>(lead * power + digits) / static_cast<double>(power);
-    value = negative ? -magnitude : magnitude;
+    // A product where a quotient would be exact: it may be off by the last bit of a double, which float32 limbs never see.
+    const auto whole = static_cast<std::int64_t>(lead * detail::whole_powers_of_ten[places] + digits);
+    const double magnitude = static_cast<double>(whole) * tenths[places];
+    value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | std::uint64_t{negative} << 63);
     return true;
 }
 
-/// The first three fields of a line as numbers, found by their blanks all at once. False where they are not plainly
-/// three numbers within 64 characters. Needs 80 readable bytes.
-inline bool read_plain_coordinates(const char* line, std::array<double, 3>& joint) {
-    const auto blank = masks_of_64(line).blank;
-    auto begins = ~blank & (blank << 1 | 1), ends = blank & ~(blank << 1);
+/// A joint's line as it nearly always is: twelve fields on 65 to 128 characters, the first three plainly numbers. Finds
+/// its end and all its fields at once. False for any other line, however sound.
+inline bool read_plain_joint(const char*& line, const char* end, std::array<double, 3>& joint) {
+    if (end - line < 128) return false;
+    const auto low = masks_of_64(line), high = masks_of_64(line + 64);
+    if (low.newline != 0 || high.newline == 0) return false;
+    const int stop = std::countr_zero(high.newline);
+    auto begins = ~low.blank & (low.blank << 1 | 1), ends = low.blank & ~(low.blank << 1);
+    const auto later = ~high.blank & (high.blank << 1 | low.blank >> 63) & ((std::uint64_t{1} << stop) - 1);
+    if (std::popcount(begins) + std::popcount(later) != joint_fields) return false;
     for (double& value : joint) {
         if (!begins || !ends) return false;
-        const int begin = std::countr_zero(begins), end = std::countr_zero(ends);
-        if (!read_plain_number(line + begin, end - begin, value) &&
-            (parse_number(line + begin, value) != line + end || !(std::abs(value) < farthest)))
+        const int first = std::countr_zero(begins), last = std::countr_zero(ends);
+        if (!read_plain_number(line + first, last - first, value) &&
+            (parse_number(line + first, value) != line + last || !(std::abs(value) < farthest)))
             return false;
         begins &= begins - 1;
         ends &= ends - 1;
     }
+    line += 64 + stop + 1;
     return true;
 }
 
@@ -130,22 +140,22 @@ class Reader {
         const auto joints = count("joints");
         if (joints != ntu_joints) fail("{} joints, not {}", joints, ntu_joints);
         Joints positions;
-        for (auto& joint : positions) read_joint(joint);
+        read_joints(positions);
         store(file, id, frame, positions);
     }
 
-    void read_joint(std::array<double, 3>& joint) {
-        begin_line("a joint");
-        int fields = 0;
-        const char* const stop = end_of_line(at_, end_, fields);
-        if (fields == joint_fields && read_plain_coordinates(at_, joint))
-            at_ = stop + (stop < end_);
-        else
-            read_odd_joint(joint);
+    void read_joints(Joints& positions) {
+        for (auto& joint : positions) {
+            if (read_plain_joint(at_, end_, joint))
+                ++line_;
+            else
+                read_odd_joint(joint);
+        }
     }
 
     /// Field by field, to take what is unusual and to name what is wrong.
     void read_odd_joint(std::array<double, 3>& joint) {
+        begin_line("a joint");
         for (double& value : joint) {
             at_ = skip_blanks(at_, end_);
             const char* stop = at_ < end_ ? parse_number(at_, value) : nullptr;
