@@ -2,9 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace actformer::cli {
+namespace {
+
+bool knows(const CLI::App& app, const std::string& command) {
+    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+    return std::any_of(commands.begin(), commands.end(), [&](const CLI::App* c) { return c->get_name() == command; });
+}
+
+}  // namespace
 
 int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) try {
     CLI::App app{"From raw motion capture to a published table."};
@@ -13,7 +22,7 @@ int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     add_commands(app);
-    if (argc > 1 && argv[1][0] != '-' && !app.get_subcommand_no_throw(argv[1])) {
+    if (argc > 1 && argv[1][0] != '-' && !knows(app, argv[1])) {
         fmt::print(stderr, "actformer: there is no command '{}' (see actformer --help)\n", argv[1]);
         return 1;
     }

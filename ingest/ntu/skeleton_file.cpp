@@ -146,10 +146,13 @@ class Reader {
 
     void read_joints(Joints& positions) {
         for (auto& joint : positions) {
-            if (read_plain_joint(at_, end_, joint))
+            const char* next = at_;
+            if (read_plain_joint(next, end_, joint)) {
                 ++line_;
-            else
+                at_ = next;
+            } else {
                 read_odd_joint(joint);
+            }
         }
     }
 
