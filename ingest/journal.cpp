@@ -125,6 +125,7 @@ void Workplace::deliver(const fs::path& out) {
 void Workplace::discard() {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
+    finished_.clear();
 }
 
 }  // namespace actformer::ingest

@@ -52,12 +52,41 @@ class Buffer {
     }
 
     std::vector<T> download() const {
-        std::vector<T> values(count_);
-        download(values);
-        return values;
+        if (count_ == 0) return {};
+        const Mapped all(*this, CL_MAP_READ);
+        return {all.values, all.values + count_};
+    }
+
+    /// Calls `fill` with a span over all values, to be written; where the device shares memory, in place. What `fill` leaves
+    /// out is undefined.
+    template <typename Fill>
+    void write_with(Fill fill) {
+        if (count_ == 0) return;
+        const Mapped all(*this, CL_MAP_WRITE);
+        fill(std::span<T>(all.values, count_));
     }
 
   private:
+    /// All values as host memory for as long as it lives.
+    struct Mapped {
+        Mapped(const Buffer& of, cl_map_flags how) : buffer(of) {
+            try {
+                values = static_cast<T*>(buffer.device_->queue().enqueueMapBuffer(buffer.memory_, CL_TRUE, how, 0,
+                                                                                 buffer.count_ * sizeof(T)));
+            } catch (const cl::Error& e) {
+                raise(buffer.device_->info(), "mapping device memory", e);
+            }
+        }
+        ~Mapped() {
+            // Fails only where the device is lost, which the next call reports.
+            clEnqueueUnmapMemObject(buffer.device_->queue()(), buffer.memory_(), values, 0, nullptr, nullptr);
+        }
+        Mapped(const Mapped&) = delete;
+        Mapped& operator=(const Mapped&) = delete;
+        const Buffer& buffer;
+        T* values = nullptr;
+    };
+
     Device* device_ = nullptr;
     std::size_t count_ = 0;
     cl::Buffer memory_;

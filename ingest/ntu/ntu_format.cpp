@@ -108,7 +108,6 @@ kernels::CleanedBatch NtuFormat::clean(kernels::Device& device, std::size_t data
     batch.persons = datasets_[dataset].persons;
     batch.joints = ntu_joints;
     batch.first = {0};
-    std::vector<float> limbs;
     for (const auto& raw : clips) {
         const auto& clip = static_cast<const NtuClip&>(*raw);
         batch.frames.push_back(clip.frames);
@@ -116,11 +115,17 @@ kernels::CleanedBatch NtuFormat::clean(kernels::Device& device, std::size_t data
         for (const auto& body : clip.bodies) {
             for (const auto time : body.times) batch.times.push_back(static_cast<float>(time));
             batch.first.push_back(static_cast<std::uint32_t>(batch.times.size()));
-            limbs.insert(limbs.end(), body.limbs.begin(), body.limbs.end());
         }
     }
     frames = batch.frames;
-    return kernels::clean(device, batch, kernels::Buffer<float>(device, limbs), smoothing_);
+    kernels::Buffer<float> limbs(device, batch.times.size() * ntu_joints * 3);
+    limbs.write_with([&](std::span<float> to) {
+        auto at = to.begin();
+        for (const auto& raw : clips)
+            for (const auto& body : static_cast<const NtuClip&>(*raw).bodies)
+                at = std::copy(body.limbs.begin(), body.limbs.end(), at);
+    });
+    return kernels::clean(device, batch, limbs, smoothing_);
 }
 
 }  // namespace actformer::ingest
