@@ -96,7 +96,9 @@ ingest::IngestSummary run_ours(const Options& options, const fs::path& raw, cons
 double cpu_seconds() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6; };
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
+    };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -176,8 +178,8 @@ void print_text(const Measured& ours, std::optional<double> peer) {
                    rate(s) / *peer);
     else
         fmt::print("reference          not at hand; name it with --peer\n");
-    fmt::print("processor time     {:>8.2f} s, {:.2f} cores busy, {:.0f} us a clip\n", ours.cpu, ours.cpu / t.wall,
-               1e6 * ours.cpu / static_cast<double>(s.files));
+    fmt::print("processor time     {:>8.2f} s, {:.2f} cores busy, {:.0f} us a clip\n", ours.cpu,
+               ours.cpu / t.wall, 1e6 * ours.cpu / static_cast<double>(s.files));
     fmt::print("where the time goes, in seconds of a thread, waits included (stages overlap):\n");
     const std::pair<const char*, double> stages[]{{"list the source", t.walk},
                                                   {"read files", t.read},

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
         }
     // Work goes batch by batch in buffers of the same sizes. Giving them back to the system in between would cost as much
     // in page faults as reading the data does.
-    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_MMAP_MAX, 0);
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
     mallopt(M_ARENA_MAX, 1);
 

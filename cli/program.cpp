@@ -10,7 +10,8 @@ namespace {
 
 bool knows(const CLI::App& app, const std::string& command) {
     const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-    return std::any_of(commands.begin(), commands.end(), [&](const CLI::App* c) { return c->get_name() == command; });
+    return std::any_of(commands.begin(), commands.end(),
+                       [&](const CLI::App* c) { return c->get_name() == command; });
 }
 
 }  // namespace

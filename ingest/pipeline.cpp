@@ -83,7 +83,8 @@ class Ingest {
     /// OUT exists: fine if this very request made it.
     void take_over_finished(const std::string& wanted) {
         if (!read_record(request_.out, checksum(wanted), summary_))
-            throw Error("{}: already there, and not from this command; remove it or choose another -o", request_.out.string());
+            throw Error("{}: already there, and not from this command; remove it or choose another -o",
+                        request_.out.string());
     }
 
     void go_on_from(const Workplace& workplace, Source& source) {
@@ -215,7 +216,8 @@ class Ingest {
                                                    tranche = std::exchange(tranche_, {})]() mutable {
             const auto start = Clock::now();
             for (std::size_t d = 0; d < shards.size(); ++d)
-                if (!shards[d].empty()) tranche.shards.emplace_back(d, write(workplace, d, shards[d], tranche.fingerprint));
+                if (!shards[d].empty())
+                    tranche.shards.emplace_back(d, write(workplace, d, shards[d], tranche.fingerprint));
             workplace.finish(std::move(tranche));
             summary_.seconds.write += seconds_since(start);
         });
@@ -240,7 +242,8 @@ class Ingest {
         add_up(tranches, summary_);
         if (clips_done_ == 0) {
             workplace.discard();
-            throw Error("none of {} files gave a clip{}{}", summary_.files, summary_.first_rejections.empty() ? "" : "; the first: ",
+            throw Error("none of {} files gave a clip{}{}", summary_.files,
+                        summary_.first_rejections.empty() ? "" : "; the first: ",
                         summary_.first_rejections.empty() ? "" : summary_.first_rejections[0]);
         }
         for (std::size_t d = 0; d < format_.datasets().size(); ++d) {
@@ -250,8 +253,9 @@ class Ingest {
             add_dataset(file, (request_.out / folder_of(d)).lexically_normal(), summary_);
         }
         write_whole(workplace.data() / "rejected.csv", rejected_csv(tranches));
-        write_whole(workplace.data() / "ingest.json",
-                    record_text({format_.settings(), checksum(wanted), fingerprint_}, request_.out, summary_));
+        write_whole(
+            workplace.data() / "ingest.json",
+            record_text({format_.settings(), checksum(wanted), fingerprint_}, request_.out, summary_));
         workplace.deliver(request_.out);
     }
 

@@ -56,7 +56,8 @@ std::string rejected_csv(const std::vector<Tranche>& tranches) {
     std::string csv = "file,kind,reason\n";
     for (const auto& tranche : tranches)
         for (const auto& [path, rejection] : tranche.left_out)
-            csv += fmt::format("{},{},{}\n", csv_field(path), kind_name(rejection.kind), csv_field(rejection.reason));
+            csv += fmt::format("{},{},{}\n", csv_field(path), kind_name(rejection.kind),
+                               csv_field(rejection.reason));
     return csv;
 }
 
@@ -71,12 +72,13 @@ std::string record_text(const Origin& origin, const fs::path& out, const IngestS
                                 {"first_rejections", summary.first_rejections}};
     json["datasets"] = nlohmann::ordered_json::array();
     for (const auto& d : summary.datasets)
-        json["datasets"].push_back({{"folder", fs::path(d.folder).lexically_relative(out.lexically_normal()).string()},
-                                    {"clips", d.clips},
-                                    {"frames", d.frames},
-                                    {"bytes", d.bytes},
-                                    {"shards", d.shards},
-                                    {"classes", d.classes}});
+        json["datasets"].push_back(
+            {{"folder", fs::path(d.folder).lexically_relative(out.lexically_normal()).string()},
+             {"clips", d.clips},
+             {"frames", d.frames},
+             {"bytes", d.bytes},
+             {"shards", d.shards},
+             {"classes", d.classes}});
     return json.dump(1) + "\n";
 }
 
@@ -92,8 +94,9 @@ bool read_record(const fs::path& out, const std::string& request, IngestSummary&
     summary.left_out = json.at("left_out").get<std::map<std::string, std::uint64_t>>();
     summary.first_rejections = json.at("first_rejections").get<std::vector<std::string>>();
     for (const auto& d : json.at("datasets"))
-        summary.datasets.push_back({(out / d.at("folder").get<std::string>()).lexically_normal().string(), d.at("clips"),
-                                    d.at("frames"), d.at("bytes"), d.at("shards"), d.at("classes")});
+        summary.datasets.push_back({(out / d.at("folder").get<std::string>()).lexically_normal().string(),
+                                    d.at("clips"), d.at("frames"), d.at("bytes"), d.at("shards"),
+                                    d.at("classes")});
     return true;
 }
 

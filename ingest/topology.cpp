@@ -42,7 +42,7 @@ const Topology& ntu25() {
          "right wrist", "right hand", "left hip",   "left knee",      "left ankle",
          "left foot",   "right hip",  "right knee", "right ankle",    "right foot",
          "chest",       "left tip",   "left thumb", "right tip",      "right thumb"},
-        {-1, 0, 20, 2, 20, 4, 5, 6, 20, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18, 1, 7, 7, 11, 11}};
+        {ntu25_parents.begin(), ntu25_parents.end()}};
     return topology;
 }
 

@@ -71,8 +71,8 @@ class Buffer {
     struct Mapped {
         Mapped(const Buffer& of, cl_map_flags how) : buffer(of) {
             try {
-                values = static_cast<T*>(buffer.device_->queue().enqueueMapBuffer(buffer.memory_, CL_TRUE, how, 0,
-                                                                                 buffer.count_ * sizeof(T)));
+                values = static_cast<T*>(buffer.device_->queue().enqueueMapBuffer(
+                    buffer.memory_, CL_TRUE, how, 0, buffer.count_ * sizeof(T)));
             } catch (const cl::Error& e) {
                 raise(buffer.device_->info(), "mapping device memory", e);
             }

@@ -20,30 +20,32 @@ constexpr double farthest = 1e6;  // metres; float32 limbs stay finite and exact
 
 using Joints = std::array<std::array<double, 3>, ntu_joints>;
 
-constexpr double tenths[] = {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8};
+/// A product with one of these sets the point and the sign: [minus][digits behind the point].
+constexpr double scales[2][16] = {{1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8},
+                                  {-1, -1e-1, -1e-2, -1e-3, -1e-4, -1e-5, -1e-6, -1e-7, -1e-8}};
 
-/// A number as the sensor's software nearly always writes it, [-]D.DDDDDDDD with up to eight digits behind the point, in
-/// `length` characters. False for any other, however sound. Needs 16 readable bytes.
-inline bool read_plain_number(const char* p, int length, double& value) {
-    // 1 for a minus, in arithmetic: signs follow no pattern, and a branch on them would be mispredicted too often.
-    const auto negative = (static_cast<std::uint32_t>(static_cast<unsigned char>(*p) ^ '-') - 1U) >> 31;
-    p += negative;
-    const int places = length - static_cast<int>(negative) - 2;
-    const auto lead = static_cast<std::uint64_t>(p[0] - '0');
-    if (p[1] != '.' || places < 1 || places > 8 || lead > 9) return false;
+/// A number as the sensor's software nearly always writes it, [-]D.DDDDDDDD with one to eight digits behind the point, in `length`
+/// characters. Returns nonzero, and any value, for another, however sound: what speed there is comes of having no branch here.
+/// The value may be off by the last bit of a double, which float32 limbs never see. Needs 10 readable bytes.
+inline std::uint64_t read_plain_number(const char* p, int length, double& value) {
+    const auto minus = (static_cast<std::uint32_t>(static_cast<unsigned char>(*p) ^ '-') - 1U) >> 31;
+    p += minus;
+    const auto places = static_cast<std::uint32_t>(length - 2) - minus;
+    const auto lead = static_cast<std::uint32_t>(static_cast<unsigned char>(*p)) - '0';
     std::uint64_t digits;
     std::memcpy(&digits, p + 2, 8);
     digits = (digits ^ 0x3030303030303030)
-             << (8 * (8 - places));  // what is no digit of ours leaves at the top
-    if ((digits | (digits + 0x7676767676767676)) & 0x8080808080808080) return false;
-    digits = (digits * 10 + (digits >> 8)) & 0x00FF00FF00FF00FF;
-    digits = (digits * 100 + (digits >> 16)) & 0x0000FFFF0000FFFF;
-    digits = (digits * 10000 + (digits >> 32)) & 0x00000000FFFFFFFF;
-    // A product where a quotient would be exact: it may be off by the last bit of a double, which float32 limbs never see.
-    const auto whole = static_cast<std::int64_t>(lead * detail::whole_powers_of_ten[places] + digits);
-    const double magnitude = static_cast<double>(whole) * tenths[places];
-    value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | std::uint64_t{negative} << 63);
-    return true;
+             << ((64 - 8 * places) & 63);  // what is no digit of ours leaves at the top
+    const std::uint64_t odd = ((digits | (digits + 0x7676767676767676)) & 0x8080808080808080) |
+                              static_cast<std::uint64_t>(places - 1 > 7) |
+                              static_cast<std::uint64_t>(lead > 9) | static_cast<std::uint64_t>(p[1] != '.');
+    // Neighbours join into numbers of 2, 4, then 8 digits, the lower byte counting for more.
+    digits = (digits * (1 + (10ULL << 8)) >> 8) & 0x00FF00FF00FF00FF;
+    digits = (digits * (1 + (100ULL << 16)) >> 16) & 0x0000FFFF0000FFFF;
+    digits = digits * (1 + (10000ULL << 32)) >> 32;
+    const auto whole = lead * detail::whole_powers_of_ten[places & 15] + digits;
+    value = static_cast<double>(static_cast<std::int64_t>(whole)) * scales[minus][places & 15];
+    return odd;
 }
 
 /// A joint's line as it nearly always is: twelve fields on 65 to 128 characters, the first three plainly numbers. Finds
@@ -55,16 +57,20 @@ inline bool read_plain_joint(const char*& line, const char* end, std::array<doub
     const int stop = std::countr_zero(high.newline);
     auto begins = ~low.blank & (low.blank << 1 | 1), ends = low.blank & ~(low.blank << 1);
     const auto later = ~high.blank & (high.blank << 1 | low.blank >> 63) & ((std::uint64_t{1} << stop) - 1);
-    if (std::popcount(begins) + std::popcount(later) != joint_fields) return false;
-    for (double& value : joint) {
-        if (!begins || !ends) return false;
-        const int first = std::countr_zero(begins), last = std::countr_zero(ends);
-        if (!read_plain_number(line + first, last - first, value) &&
-            (parse_number(line + first, value) != line + last || !(std::abs(value) < farthest)))
-            return false;
+    if (std::popcount(begins) + std::popcount(later) != joint_fields || std::popcount(ends) < 3) return false;
+    std::array<std::pair<int, int>, 3> fields;
+    std::uint64_t odd = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+        fields[d] = {std::countr_zero(begins), std::countr_zero(ends)};
         begins &= begins - 1;
         ends &= ends - 1;
+        odd |= read_plain_number(line + fields[d].first, fields[d].second - fields[d].first, joint[d]);
     }
+    if (odd)
+        for (std::size_t d = 0; d < 3; ++d)
+            if (parse_number(line + fields[d].first, joint[d]) != line + fields[d].second ||
+                !(std::abs(joint[d]) < farthest))
+                return false;
     line += 64 + stop + 1;
     return true;
 }
@@ -185,10 +191,10 @@ class Reader {
             body->limbs.resize(body->limbs.size() + ntu_joints * 3);
         }
         float* limb = &*(body->limbs.end() - ntu_joints * 3);
-        const auto& parents = ntu25().parents;
         for (std::size_t j = 0; j < ntu_joints; ++j)
             for (std::size_t d = 0; d < 3; ++d, ++limb)
-                *limb = static_cast<float>(positions[j][d] - (j == 0 ? origin_ : positions[parents[j]])[d]);
+                *limb =
+                    static_cast<float>(positions[j][d] - (j == 0 ? origin_ : positions[ntu25_parents[j]])[d]);
     }
 
     void refuse_leftovers() {

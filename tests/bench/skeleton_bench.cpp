@@ -33,7 +33,8 @@ void read_clip(benchmark::State& state) {
 void find_lines_only(benchmark::State& state) {
     over_a_clip(state, [](std::string_view text) {
         int lines = 0, fields = 0;
-        for (const char *p = text.data(), *end = p + text.size(); p < end; ++lines) p = end_of_line(p, end, fields) + 1;
+        for (const char *p = text.data(), *end = p + text.size(); p < end; ++lines)
+            p = end_of_line(p, end, fields) + 1;
         return lines;
     });
 }
