@@ -7,9 +7,6 @@ namespace {
 
 using enum At;
 
-/// Both hands at work before the belly.
-constexpr double work_x = -0.22, work_y = -0.50, work_z = 0.55;
-
 std::vector<Programme> at_the_table() {
     return {Programme(1, 3.4)  // drink water
                 .right({{0.16, reach, 0, -0.6, 0.55},
