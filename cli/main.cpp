@@ -22,6 +22,10 @@ int run(int argc, char** argv) {
     add_inspect(app);
     add_export(app);
     add_render(app);
+#ifdef ACTFORMER_WITH_TRAINING
+    add_train(app);
+    add_model(app);
+#endif
 
     try {
         app.parse(argc, argv);
