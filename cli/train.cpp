@@ -18,10 +18,11 @@ struct Options {
 };
 
 void print_epoch(const model::EpochReport& report, std::uint64_t epochs) {
-    fmt::print(stderr, "epoch {:>3} of {}  rate {:<7g} loss {:.4f}  trained {:5.1f} %", report.epoch, epochs, report.rate,
-               report.loss, 100 * report.train_accuracy);
+    fmt::print(stderr, "epoch {:>3} of {}  rate {:<7g} loss {:.4f}  trained {:5.1f} %", report.epoch, epochs,
+               report.rate, report.loss, 100 * report.train_accuracy);
     if (report.scored)
-        fmt::print(stderr, "  test {:5.1f} %{}", 100 * report.class_accuracy, report.best ? " best" : "     ");
+        fmt::print(stderr, "  test {:5.1f} %{}", 100 * report.class_accuracy,
+                   report.best ? " best" : "     ");
     fmt::print(stderr, "  {:.0f} windows/s, {}\n", report.windows_a_second, duration(report.seconds));
 }
 
@@ -41,9 +42,11 @@ nlohmann::ordered_json to_json(const model::TrainingResult& result) {
 
 void print_text(const model::TrainingResult& result, const std::string& split) {
     if (result.confusion.samples() > 0)
-        fmt::print("{}accuracy on {}: {:.2f} %, the mean over classes of the windows recognised ({:.2f} % of all {})\n",
-                   result.confusion.table(result.classes), split, 100 * result.confusion.mean_class_accuracy(),
-                   100 * result.confusion.sample_accuracy(), result.confusion.samples());
+        fmt::print(
+            "{}accuracy on {}: {:.2f} %, the mean over classes of the windows recognised ({:.2f} % of all "
+            "{})\n",
+            result.confusion.table(result.classes), split, 100 * result.confusion.mean_class_accuracy(),
+            100 * result.confusion.sample_accuracy(), result.confusion.samples());
     fmt::print("{}: after epoch {}\n", result.last_weights.string(), result.epochs);
     if (result.best_epoch > 0)
         fmt::print("{}: after epoch {}, {:.2f} %\n", result.best_weights.string(), result.best_epoch,
@@ -83,13 +86,18 @@ void add_train(CLI::App& app) {
     train->require_subcommand(1);
     auto options = std::make_shared<Options>();
     auto* command = train->add_subcommand("recogniser", "Train the ST-GCN action recogniser");
-    command->add_option("-c,--config", options->config, "Configuration, as in model/configs")->required()->type_name("CONFIG.yaml");
-    command->add_option("--data", options->data, "Dataset folder, before the configuration's data:")->type_name("DATASET");
+    command->add_option("-c,--config", options->config, "Configuration, as in model/configs")
+        ->required()
+        ->type_name("CONFIG.yaml");
+    command->add_option("--data", options->data, "Dataset folder, before the configuration's data:")
+        ->type_name("DATASET");
     command->add_option("-o,--out", options->run, "Folder of this training")->required()->type_name("RUN");
-    command->add_option("overrides", options->overrides, "As in batch=32, before the configuration's")->type_name("KEY=VALUE");
+    command->add_option("overrides", options->overrides, "As in batch=32, before the configuration's")
+        ->type_name("KEY=VALUE");
     command->add_flag("--json", options->json, "Print the result as JSON");
     examples(command,
-             "  actformer train recogniser -c model/configs/recogniser-ntu-1p.yaml --data ntu/ntu-1p -o recogniser\n"
+             "  actformer train recogniser -c model/configs/recogniser-ntu-1p.yaml --data ntu/ntu-1p -o "
+             "recogniser\n"
              "  actformer train recogniser -c model/configs/recogniser-small.yaml --data bnr10 -o small "
              "train_split=xstyle/test test_split=xstyle/train epochs=10\n");
     command->callback([options] { run(*options); });

@@ -46,7 +46,9 @@ std::string openblas_core() {
     return name ? name() : "";
 }
 
-bool has_wide_vectors() { return __builtin_cpu_supports("avx2") != 0; }
+bool has_wide_vectors() {
+    return __builtin_cpu_supports("avx2") != 0;
+}
 
 }  // namespace
 
@@ -61,10 +63,12 @@ BlasCheck check_blas() {
     const bool old_core = has_wide_vectors() && (check.core == "Prescott" || check.core == "Nehalem");
     check.slow = reference || old_core;
     if (reference)
-        check.line = speed + ": " + check.library + " is the slow reference BLAS; install libopenblas0-pthread";
+        check.line =
+            speed + ": " + check.library + " is the slow reference BLAS; install libopenblas0-pthread";
     else if (old_core)
-        check.line = fmt::format("{}: OpenBLAS takes this processor for a {}; set OPENBLAS_CORETYPE={}", speed, check.core,
-                                 __builtin_cpu_supports("avx512f") != 0 ? "SkylakeX" : "Haswell");
+        check.line =
+            fmt::format("{}: OpenBLAS takes this processor for a {}; set OPENBLAS_CORETYPE={}", speed,
+                        check.core, __builtin_cpu_supports("avx512f") != 0 ? "SkylakeX" : "Haswell");
     else
         check.line = speed + (check.core.empty() ? "" : ", OpenBLAS for " + check.core);
     return check;

@@ -23,7 +23,8 @@ std::vector<fs::path> checkpoints_in(const fs::path& folder) {
     if (!fs::is_directory(folder)) return files;
     for (const auto& entry : fs::directory_iterator(folder)) {
         const auto name = entry.path().filename().string();
-        if (name.starts_with("checkpoint-") && name.find('.') == std::string::npos) files.push_back(entry.path());
+        if (name.starts_with("checkpoint-") && name.find('.') == std::string::npos)
+            files.push_back(entry.path());
     }
     std::sort(files.rbegin(), files.rend());
     return files;
@@ -40,7 +41,8 @@ std::optional<std::string_view> take_line(std::string_view& bytes) {
 
 std::optional<Array> take_array(const Json& json, std::string_view& bytes) {
     Array array{json.at("name"), json.at("shape"), {}};
-    const auto count = std::accumulate(array.shape.begin(), array.shape.end(), std::int64_t{1}, std::multiplies<>());
+    const auto count =
+        std::accumulate(array.shape.begin(), array.shape.end(), std::int64_t{1}, std::multiplies<>());
     const auto size = static_cast<std::size_t>(count) * sizeof(float);
     if (size > bytes.size()) return std::nullopt;
     array.values.resize(static_cast<std::size_t>(count));
@@ -59,8 +61,10 @@ std::string read_whole(const fs::path& path) {
 
 std::string to_bytes(const Checkpoint& checkpoint) {
     auto arrays = Json::array();
-    for (const auto& array : checkpoint.arrays) arrays.push_back({{"name", array.name}, {"shape", array.shape}});
-    auto body = Json{{"epoch", checkpoint.epoch}, {"state", checkpoint.state}, {"arrays", arrays}}.dump() + "\n";
+    for (const auto& array : checkpoint.arrays)
+        arrays.push_back({{"name", array.name}, {"shape", array.shape}});
+    auto body =
+        Json{{"epoch", checkpoint.epoch}, {"state", checkpoint.state}, {"arrays", arrays}}.dump() + "\n";
     for (const auto& array : checkpoint.arrays)
         body.append(reinterpret_cast<const char*>(array.values.data()), array.values.size() * sizeof(float));
     return std::string(heading) + ingest::checksum(body) + "\n" + body;
@@ -89,7 +93,8 @@ void save_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
     for (std::size_t i = 2; i < files.size(); ++i) fs::remove(files[i]);
 }
 
-std::optional<Checkpoint> newest_checkpoint(const fs::path& folder, const std::function<void(const std::string&)>& note) {
+std::optional<Checkpoint> newest_checkpoint(const fs::path& folder,
+                                            const std::function<void(const std::string&)>& note) {
     const auto files = checkpoints_in(folder);
     for (std::size_t i = 0; i < files.size(); ++i) {
         if (auto checkpoint = checkpoint_from(read_whole(files[i]))) return checkpoint;

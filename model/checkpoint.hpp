@@ -13,7 +13,7 @@
 namespace actformer::model {
 
 struct Checkpoint {
-    std::uint64_t epoch = 0;  ///< epochs finished
+    std::uint64_t epoch = 0;       ///< epochs finished
     nlohmann::ordered_json state;  ///< of the trainer: counters, scores, fingerprints
     std::vector<Array> arrays;
 };

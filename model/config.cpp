@@ -23,7 +23,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
                 continue;
             }
             d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
         }
     return d[a.size()][b.size()];
 }
@@ -45,7 +46,8 @@ std::optional<bool> truth_of(const std::string& text) {
 
 std::string range_of(const Key& key) {
     const bool bounded = key.least > std::numeric_limits<double>::lowest();
-    if (key.most < std::numeric_limits<double>::max()) return fmt::format(" from {:g} to {:g}", key.least, key.most);
+    if (key.most < std::numeric_limits<double>::max())
+        return fmt::format(" from {:g} to {:g}", key.least, key.most);
     return bounded ? fmt::format(" of at least {:g}", key.least) : "";
 }
 
@@ -66,9 +68,13 @@ std::string what_is_wanted(const Key& key) {
     return std::visit(Say{key}, key.preset);
 }
 
-bool in_range(const Key& key, double value) { return value >= key.least && value <= key.most; }
+bool in_range(const Key& key, double value) {
+    return value >= key.least && value <= key.most;
+}
 
-std::string scalar(const YAML::Node& node) { return node.IsScalar() ? node.Scalar() : std::string(); }
+std::string scalar(const YAML::Node& node) {
+    return node.IsScalar() ? node.Scalar() : std::string();
+}
 
 /// The node's value in the key's type; none where it is of another type or out of range.
 std::optional<Value> parse(const Key& key, const YAML::Node& node) {
@@ -90,7 +96,8 @@ std::optional<Value> parse(const Key& key, const YAML::Node& node) {
             if (node.IsNull()) return std::string();
             if (!node.IsScalar()) return std::nullopt;
             const auto& text = node.Scalar();
-            if (!key.choices.empty() && std::find(key.choices.begin(), key.choices.end(), text) == key.choices.end())
+            if (!key.choices.empty() &&
+                std::find(key.choices.begin(), key.choices.end(), text) == key.choices.end())
                 return std::nullopt;
             return text;
         }
@@ -112,7 +119,8 @@ Value parsed(const Key& key, const YAML::Node& node, const std::string& where) {
     if (auto value = parse(key, node)) return *value;
     YAML::Emitter given;
     given << YAML::Flow << node;
-    throw Error("{}: {} must be {}, not '{}'", where, key.name, what_is_wanted(key), ingest::printable(given.c_str()));
+    throw Error("{}: {} must be {}, not '{}'", where, key.name, what_is_wanted(key),
+                ingest::printable(given.c_str()));
 }
 
 std::string text_of(const Value& value) {
@@ -125,7 +133,9 @@ std::string text_of(const Value& value) {
             out << YAML::DoubleQuoted << v;
             return out.c_str();
         }
-        std::string operator()(const std::vector<std::int64_t>& v) const { return fmt::format("[{}]", fmt::join(v, ", ")); }
+        std::string operator()(const std::vector<std::int64_t>& v) const {
+            return fmt::format("[{}]", fmt::join(v, ", "));
+        }
     };
     return std::visit(Say{}, value);
 }
@@ -136,7 +146,8 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
     std::string best;
     std::size_t fewest = std::max<std::size_t>(2, word.size() / 2);
     for (const auto& candidate : candidates) {
-        const bool part = word.size() > 2 && (candidate.find(word) != std::string::npos || word.find(candidate) != std::string::npos);
+        const bool part = word.size() > 2 && (candidate.find(word) != std::string::npos ||
+                                              word.find(candidate) != std::string::npos);
         const auto distance = part ? std::size_t{1} : edit_distance(word, candidate);
         if (distance < fewest || (distance == fewest && best.empty())) {
             best = candidate;
@@ -159,12 +170,15 @@ std::size_t Config::index_of(const std::string& name, const std::string& where) 
     const auto nearest = nearest_word(name, names);
     if (nearest.empty()) {
         std::sort(names.begin(), names.end());
-        throw Error("{}: there is no key '{}'; the keys are {}", where, ingest::printable(name), fmt::join(names, ", "));
+        throw Error("{}: there is no key '{}'; the keys are {}", where, ingest::printable(name),
+                    fmt::join(names, ", "));
     }
     throw Error("{}: there is no key '{}'; did you mean '{}'?", where, ingest::printable(name), nearest);
 }
 
-const Value& Config::value(const std::string& name) const { return values_[index_of(name, "configuration")]; }
+const Value& Config::value(const std::string& name) const {
+    return values_[index_of(name, "configuration")];
+}
 
 void Config::load(const std::filesystem::path& file) {
     YAML::Node root;
@@ -183,7 +197,8 @@ void Config::load(const std::filesystem::path& file) {
         if (!seen.insert(name).second) throw Error("{}: {} is given twice", where, ingest::printable(name));
         if (name == "model") {
             if (scalar(entry.second) == model_) continue;
-            throw Error("{}: a configuration for model '{}', not '{}'", where, ingest::printable(scalar(entry.second)), model_);
+            throw Error("{}: a configuration for model '{}', not '{}'", where,
+                        ingest::printable(scalar(entry.second)), model_);
         }
         const auto i = index_of(name, where);
         values_[i] = parsed(keys_[i], entry.second, where);
@@ -213,12 +228,14 @@ std::string Config::yaml() const {
     return out;
 }
 
-std::vector<std::string> Config::differences(const Config& other, const std::vector<std::string>& ignored) const {
+std::vector<std::string> Config::differences(const Config& other,
+                                             const std::vector<std::string>& ignored) const {
     std::vector<std::string> out;
     for (std::size_t i = 0; i < keys_.size(); ++i) {
         if (std::find(ignored.begin(), ignored.end(), keys_[i].name) != ignored.end()) continue;
         if (values_[i] == other.values_[i]) continue;
-        out.push_back(fmt::format("{} is {} there and {} here", keys_[i].name, text_of(other.values_[i]), text_of(values_[i])));
+        out.push_back(fmt::format("{} is {} there and {} here", keys_[i].name, text_of(other.values_[i]),
+                                  text_of(values_[i])));
     }
     return out;
 }

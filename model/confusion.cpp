@@ -12,7 +12,9 @@ std::uint64_t Confusion::row_sum(std::size_t truth) const {
     return std::accumulate(row, row + static_cast<std::ptrdiff_t>(classes_), std::uint64_t{0});
 }
 
-std::uint64_t Confusion::samples() const { return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}); }
+std::uint64_t Confusion::samples() const {
+    return std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});
+}
 
 double Confusion::mean_class_accuracy() const {
     double sum = 0;
@@ -41,7 +43,9 @@ std::string Confusion::table(const std::vector<std::string>& names) const {
         const auto all = row_sum(c);
         out += fmt::format("{:>3} {:<{}} {:>7}", c, names[c], width, all);
         for (std::size_t g = 0; g < classes_; ++g)
-            out += at(c, g) == 0 ? "    ." : fmt::format(" {:>4.0f}", 100.0 * static_cast<double>(at(c, g)) / static_cast<double>(all));
+            out += at(c, g) == 0 ? "    ."
+                                 : fmt::format(" {:>4.0f}", 100.0 * static_cast<double>(at(c, g)) /
+                                                                static_cast<double>(all));
         out += "\n";
     }
     return out;

@@ -28,7 +28,8 @@ const Graph& ntu_graph() {
 
 Graph recogniser_graph(const ingest::Topology& topology) {
     if (topology.parents == ingest::ntu25().parents) return ntu_graph();
-    const auto root = std::find(topology.parents.begin(), topology.parents.end(), -1) - topology.parents.begin();
+    const auto root =
+        std::find(topology.parents.begin(), topology.parents.end(), -1) - topology.parents.begin();
     return {topology.parents, static_cast<std::uint32_t>(root)};
 }
 
@@ -47,7 +48,8 @@ std::vector<float> spatial_partition(const Graph& graph) {
         for (std::size_t source = 0; source < joints; ++source) {
             if (near[source * joints + target] == 0) continue;
             const std::size_t part = source == target ? 0 : distance[source] >= distance[target] ? 1 : 2;
-            partition[(part * joints + source) * joints + target] = static_cast<float>(1.0 / static_cast<double>(degree));
+            partition[(part * joints + source) * joints + target] =
+                static_cast<float>(1.0 / static_cast<double>(degree));
         }
     }
     return partition;

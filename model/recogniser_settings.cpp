@@ -18,7 +18,8 @@ Config recogniser_config() {
                    {"batch", std::int64_t{64}, "windows a step", 1, 65536},
                    {"epochs", std::int64_t{80}, "times through the clips", 1, 1000000},
                    {"rate", 0.1, "learning rate at the start", 0, 100},
-                   {"rate_drops", Numbers{10, 50}, "epochs at whose start the rate is multiplied by rate_factor", 0, 1000000},
+                   {"rate_drops", Numbers{10, 50},
+                    "epochs at whose start the rate is multiplied by rate_factor", 0, 1000000},
                    {"rate_factor", 0.1, "see rate_drops", 0, 1},
                    {"momentum", 0.9, "of stochastic gradient descent", 0, 0.9999},
                    {"nesterov", true, "Nesterov's momentum"},
@@ -32,7 +33,9 @@ Config recogniser_config() {
 RecogniserSettings recogniser_settings(const Config& config) {
     const auto text = [&](const char* key) { return config.get<std::string>(key); };
     const auto real = [&](const char* key) { return config.get<double>(key); };
-    const auto whole = [&](const char* key) { return static_cast<std::uint32_t>(config.get<std::int64_t>(key)); };
+    const auto whole = [&](const char* key) {
+        return static_cast<std::uint32_t>(config.get<std::int64_t>(key));
+    };
     RecogniserSettings s;
     s.data = text("data");
     s.train_split = text("train_split");
@@ -69,14 +72,17 @@ const std::vector<std::string>& keys_free_to_change() {
     return keys;
 }
 
-StgcnSettings network_for(const RecogniserSettings& settings, const ingest::Topology& topology, std::uint32_t persons,
-                          std::size_t classes, const std::string& dataset) {
+StgcnSettings network_for(const RecogniserSettings& settings, const ingest::Topology& topology,
+                          std::uint32_t persons, std::size_t classes, const std::string& dataset) {
     if (settings.persons != 0 && settings.persons != persons)
         throw Error("{}: {} person{} a clip, but the configuration says persons: {}", dataset, persons,
                     persons == 1 ? "" : "s", settings.persons);
     if (settings.classes != 0 && settings.classes != classes)
-        throw Error("{}: {} classes, but the configuration says classes: {}", dataset, classes, settings.classes);
-    if (classes < 2) throw Error("{}: {} class{}; telling classes apart needs at least 2", dataset, classes, classes == 1 ? "" : "es");
+        throw Error("{}: {} classes, but the configuration says classes: {}", dataset, classes,
+                    settings.classes);
+    if (classes < 2)
+        throw Error("{}: {} class{}; telling classes apart needs at least 2", dataset, classes,
+                    classes == 1 ? "" : "es");
     StgcnSettings network;
     network.channels = 3 * persons;
     network.classes = static_cast<std::uint32_t>(classes);

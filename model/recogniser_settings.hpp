@@ -19,12 +19,14 @@ struct RecogniserSettings {
     double width = 1, dropout = 0.5;
     std::uint32_t frames = 60, batch = 64, epochs = 80;
     double rate = 0.1, rate_factor = 0.1;
-    std::vector<std::int64_t> rate_drops;  ///< epochs, from 0, at whose start the rate is multiplied by rate_factor
+    std::vector<std::int64_t>
+        rate_drops;  ///< epochs, from 0, at whose start the rate is multiplied by rate_factor
     double momentum = 0.9, weight_decay = 1e-4;
     bool nesterov = true;
     std::uint64_t seed = 0;
-    std::string device, opencl;  ///< of libtorch, as in "cpu" or "cuda:0"; of the sampler, as --device elsewhere
-    int threads = 0;             ///< 0: as many as the process may use
+    std::string device,
+        opencl;       ///< of libtorch, as in "cpu" or "cuda:0"; of the sampler, as --device elsewhere
+    int threads = 0;  ///< 0: as many as the process may use
 
     double rate_at(std::uint64_t epoch) const;
 };
@@ -36,7 +38,7 @@ const std::vector<std::string>& keys_free_to_change();
 
 /// The network for a dataset of `persons` persons and `classes` classes. Throws Error where the configuration asks
 /// for other numbers, naming `dataset`.
-StgcnSettings network_for(const RecogniserSettings& settings, const ingest::Topology& topology, std::uint32_t persons,
-                          std::size_t classes, const std::string& dataset);
+StgcnSettings network_for(const RecogniserSettings& settings, const ingest::Topology& topology,
+                          std::uint32_t persons, std::size_t classes, const std::string& dataset);
 
 }  // namespace actformer::model

@@ -44,7 +44,8 @@ ingest::Dataset open_dataset(const RecogniserSettings& settings) {
     if (settings.data.empty()) throw Error("no dataset: give --data DATASET, or data: in the configuration");
     const auto folders = ingest::datasets_at(settings.data);
     if (folders.size() != 1)
-        throw Error("{}: holds {} datasets; train on one, as in {}", settings.data, folders.size(), folders[0].string());
+        throw Error("{}: holds {} datasets; train on one, as in {}", settings.data, folders.size(),
+                    folders[0].string());
     return ingest::Dataset(folders[0]);
 }
 
@@ -87,7 +88,8 @@ class Training {
     std::uint64_t steps_an_epoch_ = 0, epochs_ = 0;
     std::uint64_t best_epoch_ = 0;
     double best_accuracy_ = -1;
-    at::Tensor loss_sum_, right_sum_;  ///< of the running epoch, on the device: reading them would wait for every step
+    at::Tensor loss_sum_,
+        right_sum_;  ///< of the running epoch, on the device: reading them would wait for every step
     Confusion confusion_;
 };
 
@@ -104,16 +106,18 @@ Training::Training(const Config& config, const std::filesystem::path& run, const
       settings_(recogniser_settings(config)),
       folder_(run),
       dataset_(open_dataset(settings_)),
-      shape_(network_for(settings_, dataset_.header().topology, dataset_.header().persons, dataset_.header().classes.size(),
-                         dataset_.folder().string())),
+      shape_(network_for(settings_, dataset_.header().topology, dataset_.header().persons,
+                         dataset_.header().classes.size(), dataset_.folder().string())),
       opencl_(settings_.opencl),
       train_clips_(load_split(opencl_, dataset_, settings_.train_split)),
-      feed_(train_clips_, {settings_.seed, kernels::ClassSampling::plain, true}, settings_.batch, settings_.frames),
+      feed_(train_clips_, {settings_.seed, kernels::ClassSampling::plain, true}, settings_.batch,
+            settings_.frames),
       device_(torch_device(settings_.device)),
       net_(shape_, settings_.seed, device_),
       sgd_(trained(net_), {settings_.momentum, settings_.weight_decay, settings_.nesterov}),
       confusion_(shape_.classes) {
-    if (!settings_.test_split.empty()) test_clips_.emplace(load_split(opencl_, dataset_, settings_.test_split));
+    if (!settings_.test_split.empty())
+        test_clips_.emplace(load_split(opencl_, dataset_, settings_.test_split));
     steps_an_epoch_ = (train_clips_.table().clips() + settings_.batch - 1) / settings_.batch;
     compare_with_earlier_run();
     ingest::write_whole(folder_.config(), config_.yaml());
@@ -127,8 +131,8 @@ void Training::compare_with_earlier_run() const {
     earlier.load(folder_.config());
     const auto differences = config_.differences(earlier, keys_free_to_change());
     if (!differences.empty())
-        throw Error("{}: holds a training with other settings ({}); choose another -o", folder_.path().string(),
-                    fmt::join(differences, ", "));
+        throw Error("{}: holds a training with other settings ({}); choose another -o",
+                    folder_.path().string(), fmt::join(differences, ", "));
 }
 
 /// A class that is never seen in training is never recognised: worth a line before hours of it.
@@ -139,8 +143,8 @@ void Training::say_what_is_missing() const {
     for (std::size_t c = 0; c < counts.size(); ++c)
         if (counts[c] == 0) missing.push_back(dataset_.header().classes[c]);
     if (!missing.empty())
-        say(fmt::format("split {} has no clip of {} of the {} classes, which will not be recognised: {}", settings_.train_split,
-                        missing.size(), counts.size(), fmt::join(missing, ", ")));
+        say(fmt::format("split {} has no clip of {} of the {} classes, which will not be recognised: {}",
+                        settings_.train_split, missing.size(), counts.size(), fmt::join(missing, ", ")));
 }
 
 void Training::resume() {
@@ -167,7 +171,9 @@ void Training::resume() {
 
 at::Tensor Training::to_tensor(const Windows& windows) const {
     const auto& table = train_clips_.table();
-    return at::from_blob(windows.values, {windows.count, shape_.channels, settings_.frames, table.joints}, at::kFloat).to(device_);
+    return at::from_blob(windows.values, {windows.count, shape_.channels, settings_.frames, table.joints},
+                         at::kFloat)
+        .to(device_);
 }
 
 at::Tensor Training::labels_of(const Windows& windows) const {
@@ -197,7 +203,8 @@ EpochReport Training::train_epoch() {
     for (std::uint64_t i = 0; i < steps_an_epoch_; ++i) {
         const auto index = epochs_ * steps_an_epoch_ + i;
         step(feed_.batch(index), report.rate, index);
-        if (events_.progress) events_.progress(static_cast<double>(index + 1) / all_steps, (index + 1) * settings_.batch);
+        if (events_.progress)
+            events_.progress(static_cast<double>(index + 1) / all_steps, (index + 1) * settings_.batch);
     }
     const auto windows = static_cast<double>(steps_an_epoch_ * settings_.batch);
     report.loss = loss_sum_.item<double>() / static_cast<double>(steps_an_epoch_);
@@ -205,8 +212,8 @@ EpochReport Training::train_epoch() {
     report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
     report.windows_a_second = windows / report.seconds;
     if (!std::isfinite(report.loss))
-        throw Error("{}: the loss of epoch {} is no number; a smaller rate than {} may help", folder_.path().string(),
-                    report.epoch, report.rate);
+        throw Error("{}: the loss of epoch {} is no number; a smaller rate than {} may help",
+                    folder_.path().string(), report.epoch, report.rate);
     ++epochs_;
     return report;
 }
@@ -217,7 +224,8 @@ void Training::score(EpochReport& report) {
     for_each_window(*test_clips_, settings_.batch, settings_.frames, [&](const Windows& windows) {
         const auto guesses = net_.eval_forward(to_tensor(windows)).logits.argmax(1).to(at::kCPU);
         const auto* guess = guesses.data_ptr<std::int64_t>();
-        for (std::uint32_t i = 0; i < windows.count; ++i) confusion_.add(windows.labels[i], static_cast<std::size_t>(guess[i]));
+        for (std::uint32_t i = 0; i < windows.count; ++i)
+            confusion_.add(windows.labels[i], static_cast<std::size_t>(guess[i]));
     });
     report.scored = true;
     report.class_accuracy = confusion_.mean_class_accuracy();
@@ -233,7 +241,9 @@ std::vector<Array> Training::momenta() {
     for (const auto& tensor : sgd_.momenta()) {
         const auto values = tensor.to(at::kCPU).contiguous();
         const auto* first = values.data_ptr<float>();
-        arrays.push_back({fmt::format("momentum.{}", arrays.size()), tensor.sizes().vec(), {first, first + values.numel()}});
+        arrays.push_back({fmt::format("momentum.{}", arrays.size()),
+                          tensor.sizes().vec(),
+                          {first, first + values.numel()}});
     }
     return arrays;
 }
@@ -248,7 +258,10 @@ std::map<std::string, std::string> Training::notes(std::uint64_t epoch) const {
 
 /// The checkpoint comes last: what a kill leaves before it is written anew, the same.
 void Training::keep(const EpochReport& report) {
-    Json line{{"epoch", report.epoch}, {"rate", report.rate}, {"loss", report.loss}, {"train_accuracy", report.train_accuracy}};
+    Json line{{"epoch", report.epoch},
+              {"rate", report.rate},
+              {"loss", report.loss},
+              {"train_accuracy", report.train_accuracy}};
     if (report.scored) {
         line["class_accuracy"] = report.class_accuracy;
         line["sample_accuracy"] = report.sample_accuracy;
@@ -261,12 +274,13 @@ void Training::keep(const EpochReport& report) {
     Checkpoint checkpoint{epochs_, {}, net_.arrays()};
     save_weights(last_weights(), shape_, checkpoint.arrays, notes(epochs_));
     if (report.best) save_weights(best_weights(), shape_, checkpoint.arrays, notes(epochs_));
-    checkpoint.state = {{"program", ACTFORMER_VERSION},
-                        {"dataset", dataset_.fingerprint()},
-                        {"seed", settings_.seed},  // with the steps done, all there is to the random numbers' state
-                        {"steps", epochs_ * steps_an_epoch_},
-                        {"best_epoch", best_epoch_},
-                        {"best_accuracy", best_accuracy_}};
+    checkpoint.state = {
+        {"program", ACTFORMER_VERSION},
+        {"dataset", dataset_.fingerprint()},
+        {"seed", settings_.seed},  // with the steps done, all there is to the random numbers' state
+        {"steps", epochs_ * steps_an_epoch_},
+        {"best_epoch", best_epoch_},
+        {"best_accuracy", best_accuracy_}};
     for (auto& array : momenta()) checkpoint.arrays.push_back(std::move(array));
     save_checkpoint(folder_.path(), checkpoint);
 }
@@ -280,17 +294,25 @@ TrainingResult Training::run() {
         if (events_.epoch) events_.epoch(report);
     }
     if (!report.scored) score(report);  // an earlier call did all epochs
-    TrainingResult result{epochs_, best_epoch_, best_accuracy_, confusion_, dataset_.header().classes, last_weights(), {}};
+    TrainingResult result{epochs_,        best_epoch_, best_accuracy_, confusion_, dataset_.header().classes,
+                          last_weights(), {}};
     if (best_epoch_ > 0) result.best_weights = best_weights();
     return result;
 }
 
 }  // namespace
 
-TrainingResult train_recogniser(const Config& config, const std::filesystem::path& run, const TrainingEvents& events) {
+TrainingResult train_recogniser(const Config& config, const std::filesystem::path& run,
+                                const TrainingEvents& events) {
     set_threads(recogniser_settings(config).threads);
     if (events.note) events.note(check_blas().line);
-    return Training(config, run, events).run();
+    try {
+        return Training(config, run, events).run();
+    } catch (const c10::Error& e) {  // what() goes on with a stack
+        const std::string text = e.what_without_backtrace();
+        throw Error("libtorch: {}; a smaller batch helps where memory ran out",
+                    text.substr(0, text.find('\n')));
+    }
 }
 
 }  // namespace actformer::model

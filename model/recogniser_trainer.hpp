@@ -15,11 +15,11 @@ namespace actformer::model {
 struct EpochReport {
     std::uint64_t epoch = 0;  ///< from 1
     double rate = 0, loss = 0;
-    double train_accuracy = 0;     ///< share of the epoch's own drawn windows, under dropout
-    bool scored = false;           ///< there is a test split
-    double class_accuracy = 0;     ///< mean over its classes
-    double sample_accuracy = 0;    ///< share of its windows
-    double seconds = 0;            ///< of the training steps
+    double train_accuracy = 0;   ///< share of the epoch's own drawn windows, under dropout
+    bool scored = false;         ///< there is a test split
+    double class_accuracy = 0;   ///< mean over its classes
+    double sample_accuracy = 0;  ///< share of its windows
+    double seconds = 0;          ///< of the training steps
     double windows_a_second = 0;
     bool best = false;  ///< of all epochs so far, by class_accuracy
 };
@@ -42,6 +42,7 @@ struct TrainingResult {
 /// Trains in the folder `run`, going on behind its newest whole checkpoint: the weights come out as they would
 /// have without the interruption, bit for bit on as many threads. Writes config.yaml, log.jsonl, the last two checkpoints, weights-last.h5
 /// and weights-best.h5. Throws Error where another training holds the folder, or one of other settings or data is in it.
-TrainingResult train_recogniser(const Config& config, const std::filesystem::path& run, const TrainingEvents& events);
+TrainingResult train_recogniser(const Config& config, const std::filesystem::path& run,
+                                const TrainingEvents& events);
 
 }  // namespace actformer::model

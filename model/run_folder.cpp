@@ -43,7 +43,8 @@ void RunFolder::rewind_log(std::uint64_t epochs) const {
     std::string kept, line;
     while (std::getline(file, line) && !file.eof()) {
         const auto json = nlohmann::json::parse(line, nullptr, false);
-        if (json.is_object() && json.contains("epoch") && json["epoch"].is_number_unsigned() && json["epoch"] <= epochs)
+        if (json.is_object() && json.contains("epoch") && json["epoch"].is_number_unsigned() &&
+            json["epoch"] <= epochs)
             kept += line + "\n";
     }
     file.close();

@@ -17,7 +17,7 @@ constexpr std::array<PublicLayer, 10> public_layers{
     {{64, 1}, {64, 1}, {64, 1}, {64, 1}, {128, 2}, {128, 1}, {128, 1}, {256, 2}, {256, 1}, {256, 1}}};
 
 std::uint32_t scaled(std::uint32_t channels, double width) {
-    return 8 * static_cast<std::uint32_t>(std::max(1L, std::lround(channels * width / 8)));
+    return 16 * static_cast<std::uint32_t>(std::max(1L, std::lround(channels * width / 16)));
 }
 
 /// Collects weights under their public names.
@@ -35,7 +35,8 @@ class WeightList {
         add(name + ".weight", {out, in, taps, 1}, Start::uniform, reach);
         add(name + ".bias", {out}, Start::uniform, reach);
     }
-    void add(std::string name, std::vector<std::int64_t> shape, Start start, double reach = 0, bool trained = true) {
+    void add(std::string name, std::vector<std::int64_t> shape, Start start, double reach = 0,
+             bool trained = true) {
         list_.push_back({std::move(name), std::move(shape), start, reach, trained});
     }
     std::vector<WeightInfo> take() { return std::move(list_); }
@@ -62,9 +63,9 @@ std::vector<StgcnLayer> stgcn_layers(const StgcnSettings& settings) {
     auto in = settings.channels;
     for (const auto& layer : public_layers) {
         const auto out = scaled(layer.out, settings.width);
-        const auto shortcut = layers.empty()                     ? StgcnLayer::Shortcut::none
+        const auto shortcut = layers.empty()                   ? StgcnLayer::Shortcut::none
                               : in == out && layer.stride == 1 ? StgcnLayer::Shortcut::identity
-                                                                 : StgcnLayer::Shortcut::convolution;
+                                                               : StgcnLayer::Shortcut::convolution;
         layers.push_back({in, out, layer.stride, shortcut});
         in = out;
     }
@@ -98,7 +99,10 @@ std::vector<SummaryLine> stgcn_summary(const StgcnSettings& settings, std::uint3
     const std::int64_t joints = settings.graph.joints();
     std::int64_t t = frames;
     std::vector<SummaryLine> lines;
-    lines.push_back({"data_bn", "normalisation of the input", {settings.channels, t, joints}, trained_under(weights, "data_bn.")});
+    lines.push_back({"data_bn",
+                     "normalisation of the input",
+                     {settings.channels, t, joints},
+                     trained_under(weights, "data_bn.")});
     const auto layers = stgcn_layers(settings);
     for (std::size_t i = 0; i < layers.size(); ++i) {
         const auto& layer = layers[i];
@@ -107,7 +111,8 @@ std::vector<SummaryLine> stgcn_summary(const StgcnSettings& settings, std::uint3
             lines.push_back({name, kind, {layer.out, t, joints}, parameters});
         };
         add(prefix + "gcn", "graph convolution, 3 parts",
-            trained_under(weights, prefix + "gcn.") + trained_under(weights, fmt::format("edge_importance.{}", i)));
+            trained_under(weights, prefix + "gcn.") +
+                trained_under(weights, fmt::format("edge_importance.{}", i)));
         t = (t + layer.stride - 1) / layer.stride;
         add(prefix + "tcn", layer.stride == 1 ? "9 frames" : fmt::format("9 frames, stride {}", layer.stride),
             trained_under(weights, prefix + "tcn."));
@@ -120,9 +125,11 @@ std::vector<SummaryLine> stgcn_summary(const StgcnSettings& settings, std::uint3
 }
 
 void check(const StgcnSettings& settings) {
-    if (settings.channels == 0 || settings.graph.joints() == 0) throw Error("a recogniser needs joints with channels");
+    if (settings.channels == 0 || settings.graph.joints() == 0)
+        throw Error("a recogniser needs joints with channels");
     if (settings.classes < 2) throw Error("a recogniser needs at least 2 classes, not {}", settings.classes);
-    if (settings.graph.center >= settings.graph.joints()) throw Error("the graph's centre is none of its joints");
+    if (settings.graph.center >= settings.graph.joints())
+        throw Error("the graph's centre is none of its joints");
     if (!(settings.width > 0) || !(settings.dropout >= 0 && settings.dropout < 1))
         throw Error("width {} or dropout {} is out of range", settings.width, settings.dropout);
 }

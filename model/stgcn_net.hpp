@@ -16,7 +16,8 @@ namespace actformer::model {
 class StgcnNet {
   public:
     /// Weights start at random from `seed`, alike on every device. `type` is at::kFloat, or at::kDouble for checks.
-    StgcnNet(StgcnSettings settings, std::uint64_t seed, const at::Device& device = at::kCPU, at::ScalarType type = at::kFloat);
+    StgcnNet(StgcnSettings settings, std::uint64_t seed, const at::Device& device = at::kCPU,
+             at::ScalarType type = at::kFloat);
 
     struct Output {
         at::Tensor logits;    ///< (N, classes)
@@ -46,15 +47,29 @@ class StgcnNet {
 
   private:
     enum class Mode { train, eval };
-    Output forward(const at::Tensor& x, Mode mode) const;
+    bool takes_fused_path() const { return fused && partition_.is_cpu(); }
+    at::Tensor features(const at::Tensor& x, Mode mode, std::uint64_t dropout_seed) const;
+    Output forward(const at::Tensor& x, Mode mode, std::uint64_t dropout_seed) const;
+    at::Tensor edge_strengths(std::size_t layer) const;
+
+    // In libtorch's operators, (N, C, T, K).
     at::Tensor norm(const at::Tensor& x, const std::string& name, Mode mode) const;
     at::Tensor convolution(const at::Tensor& x, const std::string& name, std::int64_t stride) const;
     at::Tensor layer(const at::Tensor& x, std::size_t i, Mode mode) const;
 
+    // In our own, (N, T, K, C).
+    at::Tensor fused_norm_of(const at::Tensor& x, const std::string& name, Mode mode, bool relu,
+                             double drop = 0, std::uint64_t seed = 0, const at::Tensor& shortcut = {}) const;
+    at::Tensor fused_convolution(const at::Tensor& x, const std::string& name, std::int64_t stride) const;
+    at::Tensor fused_graph(const at::Tensor& x, std::size_t i) const;
+    at::Tensor fused_layer(const at::Tensor& x, std::size_t i, Mode mode, std::uint64_t seed) const;
+
     StgcnSettings settings_;
     std::vector<WeightInfo> infos_;
     std::map<std::string, at::Tensor> weights_;
-    at::Tensor partition_;  ///< (3, K, K)
+    at::Tensor partition_;   ///< (3, K, K)
+    at::Tensor edges_;       ///< (E, 3) int32: where the partition is not zero, as cpu::Edge
+    at::Tensor edge_index_;  ///< (E) the same as places in the partition
 };
 
 }  // namespace actformer::model

@@ -16,7 +16,8 @@ Windows windows_of(kernels::Batch& batch) {
 
 }  // namespace
 
-kernels::ClipStore load_split(kernels::Device& device, const ingest::Dataset& dataset, const std::string& split) {
+kernels::ClipStore load_split(kernels::Device& device, const ingest::Dataset& dataset,
+                              const std::string& split) {
     const auto clips = dataset.split(split);
     if (clips.empty()) throw Error("{}: split {} holds no clip", dataset.folder().string(), split);
     kernels::ClipTable table;
@@ -31,9 +32,11 @@ kernels::ClipStore load_split(kernels::Device& device, const ingest::Dataset& da
     return store;
 }
 
-RandomFeed::RandomFeed(const kernels::ClipStore& clips, const kernels::SamplerOptions& options, std::uint32_t batch,
-                       std::uint32_t frames)
-    : sampler_(clips, options), slots_{{clips, batch, frames}, {clips, batch, frames}}, drawn_{nothing, nothing} {}
+RandomFeed::RandomFeed(const kernels::ClipStore& clips, const kernels::SamplerOptions& options,
+                       std::uint32_t batch, std::uint32_t frames)
+    : sampler_(clips, options),
+      slots_{{clips, batch, frames}, {clips, batch, frames}},
+      drawn_{nothing, nothing} {}
 
 Windows RandomFeed::batch(std::uint64_t index) {
     const auto draw = [&](std::uint64_t i) {

@@ -20,7 +20,8 @@ struct Windows {
 };
 
 /// One split's clips on the device. Throws Error where the split is unknown or empty.
-kernels::ClipStore load_split(kernels::Device& device, const ingest::Dataset& dataset, const std::string& split);
+kernels::ClipStore load_split(kernels::Device& device, const ingest::Dataset& dataset,
+                              const std::string& split);
 
 /// Random batches, each drawn while the one before is used.
 class RandomFeed {

@@ -39,7 +39,7 @@ class Net(nn.Module):
         self.layers, cin = nn.ModuleList(), o.channels
         self.importance = nn.ParameterList()
         for i, (c, stride) in enumerate(LAYERS):
-            c = 8 * max(1, round(c * o.width / 8))
+            c = 16 * max(1, round(c * o.width / 16))
             self.layers.append(Layer(cin, c, stride, i == 0))
             self.importance.append(nn.Parameter(torch.ones(3, o.joints, o.joints)))
             cin = c
