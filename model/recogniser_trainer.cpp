@@ -75,7 +75,6 @@ class Training {
     const Config& config_;
     const TrainingEvents& events_;
     RecogniserSettings settings_;
-    RunFolder folder_;
     ingest::Dataset dataset_;
     StgcnSettings shape_;
     kernels::Device opencl_;
@@ -85,6 +84,7 @@ class Training {
     at::Device device_;
     StgcnNet net_;
     Sgd sgd_;
+    RunFolder folder_;  ///< made last: what cannot be trained leaves no folder behind
     std::uint64_t steps_an_epoch_ = 0, epochs_ = 0;
     std::uint64_t best_epoch_ = 0;
     double best_accuracy_ = -1;
@@ -92,6 +92,12 @@ class Training {
         right_sum_;  ///< of the running epoch, on the device: reading them would wait for every step
     Confusion confusion_;
 };
+
+std::optional<kernels::ClipStore> load_test_split(kernels::Device& device, const ingest::Dataset& dataset,
+                                                  const std::string& split) {
+    if (split.empty()) return std::nullopt;
+    return load_split(device, dataset, split);
+}
 
 std::vector<at::Tensor> trained(StgcnNet& net) {
     std::vector<at::Tensor> parameters;
@@ -104,20 +110,19 @@ Training::Training(const Config& config, const std::filesystem::path& run, const
     : config_(config),
       events_(events),
       settings_(recogniser_settings(config)),
-      folder_(run),
       dataset_(open_dataset(settings_)),
       shape_(network_for(settings_, dataset_.header().topology, dataset_.header().persons,
                          dataset_.header().classes.size(), dataset_.folder().string())),
       opencl_(settings_.opencl),
       train_clips_(load_split(opencl_, dataset_, settings_.train_split)),
+      test_clips_(load_test_split(opencl_, dataset_, settings_.test_split)),
       feed_(train_clips_, {settings_.seed, kernels::ClassSampling::plain, true}, settings_.batch,
             settings_.frames),
       device_(torch_device(settings_.device)),
       net_(shape_, settings_.seed, device_),
       sgd_(trained(net_), {settings_.momentum, settings_.weight_decay, settings_.nesterov}),
+      folder_(run),
       confusion_(shape_.classes) {
-    if (!settings_.test_split.empty())
-        test_clips_.emplace(load_split(opencl_, dataset_, settings_.test_split));
     steps_an_epoch_ = (train_clips_.table().clips() + settings_.batch - 1) / settings_.batch;
     compare_with_earlier_run();
     ingest::write_whole(folder_.config(), config_.yaml());

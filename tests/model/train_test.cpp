@@ -173,6 +173,7 @@ TEST_F(TrainRecogniser, RefusesWhatCannotBeTrained) {
     expect_refused(train("r", "device=marble"), {"device marble"});
     expect_refused(train("r", "bacth=3"), {"did you mean 'batch'"});
     expect_refused(run_actformer("train recogniser -c " + (dir / "toy.yaml").string() + " -o r"), {"--data"});
+    EXPECT_FALSE(fs::exists(dir / "r"));
 }
 
 TEST_F(TrainRecogniser, SaysWhichClassesHaveNoClip) {
