@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 #include "cli/commands.hpp"
 
@@ -40,7 +43,21 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
+#ifdef ACTFORMER_WITH_TRAINING
+/// OpenMP's threads spin while they wait, and on a machine with other work starve it and one another: training runs
+/// two to four times slower. The library reads how to wait once, when it is loaded, so the program starts itself again.
+/// Whoever sets OMP_WAIT_POLICY is left alone.
+void train_without_spinning(int argc, char** argv) {
+    if (argc < 2 || std::string_view(argv[1]) != "train" || std::getenv("OMP_WAIT_POLICY")) return;
+    ::setenv("OMP_WAIT_POLICY", "passive", 1);
+    ::execv("/proc/self/exe", argv);  // comes back only where it failed: training is slower then, not wrong
+}
+#endif
+
 int main(int argc, char** argv) {
+#ifdef ACTFORMER_WITH_TRAINING
+    train_without_spinning(argc, argv);
+#endif
     // Work goes batch by batch in buffers of the same sizes. Giving them back to the system in between would cost as much
     // in page faults as reading the data does.
     mallopt(M_MMAP_THRESHOLD, 1 << 30);

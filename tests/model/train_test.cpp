@@ -65,8 +65,6 @@ const fs::path& toy() {
 
 struct TrainRecogniser : testing::Test {
     void SetUp() override {
-        ::setenv("OMP_WAIT_POLICY", "passive",
-                 1);  // spinning threads starve each other where tests share the processors
         write_file(dir / "toy.yaml",
                    "model: recogniser\nwidth: 0.25\nframes: 16\nbatch: 12\nepochs: 3\nrate_drops: []\n"
                    "train_split: s/train\ntest_split: s/test\nseed: 4\nthreads: 1\n");
