@@ -12,6 +12,8 @@ void add_inspect(CLI::App& app);
 void add_export(CLI::App& app);
 void add_render(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_train(CLI::App& app);
+void add_model(CLI::App& app);
 
 /// Ends a command's --help with lines that can be typed as they stand.
 inline void examples(CLI::App* command, const std::string& lines) {

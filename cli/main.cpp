@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
 
@@ -9,29 +10,40 @@
 
 namespace {
 
-/// Commands over large libraries are programs of their own, so that the others start at once.
+/// Commands over large libraries are programs of their own beside this one, so that the others start at once.
 struct Subprogram {
     const char *command, *program, *description;
 };
 constexpr Subprogram subprograms[] = {
-    {"render", "actformer-render", "Draw motions: a contact sheet (.png), a .gif or an .mp4"}};
+    {"render", "actformer-render", "Draw motions: a contact sheet (.png), a .gif or an .mp4"},
+    {"train", "actformer-train", "Train a recogniser"},
+    {"model", "actformer-train", "Print a configuration's layers, shapes and parameter counts"}};
 
-/// Becomes the program beside this one that a command lives in; returns where there is none.
-void become(const char* program, char** argv) {
+std::filesystem::path path_of(const Subprogram& sub) {
     std::error_code error;
-    const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
-    execv((self.parent_path() / program).c_str(), argv);
-    std::fprintf(stderr, "actformer: %s is missing beside %s; build it again\n", program, self.c_str());
+    return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / sub.program;
+}
+
+/// OpenMP's threads spin while they wait, and on a machine with other work starve it and one another: training runs two to
+/// four times slower. The library reads how to wait when it is loaded. Whoever sets OMP_WAIT_POLICY is left alone.
+void wait_without_spinning() { ::setenv("OMP_WAIT_POLICY", "passive", 0); }
+
+/// Becomes the program that a command lives in; comes back only where it cannot.
+int become(const Subprogram& sub, char** argv) {
+    wait_without_spinning();
+    ::execv(path_of(sub).c_str(), argv);
+    std::fprintf(stderr,
+                 "actformer: this build has no '%s': %s is not beside it (train and model need libtorch; see README)\n",
+                 sub.command, sub.program);
+    return 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     for (const auto& sub : subprograms)
-        if (argc > 1 && std::string_view(argv[1]) == sub.command) {
-            become(sub.program, argv);
-            return 1;
-        }
+        if (argc > 1 && std::string_view(argv[1]) == sub.command) return become(sub, argv);
+
     // Work goes batch by batch in buffers of the same sizes. Giving them back to the system in between would cost as much
     // in page faults as reading the data does.
     mallopt(M_MMAP_MAX, 0);
@@ -45,7 +57,8 @@ int main(int argc, char** argv) {
         add_ingest(app);
         add_inspect(app);
         add_export(app);
-        for (const auto& sub : subprograms) app.add_subcommand(sub.command, sub.description);
+        for (const auto& sub : subprograms)
+            if (std::filesystem::exists(path_of(sub))) app.add_subcommand(sub.command, sub.description);
         add_bench(app);
     });
 }

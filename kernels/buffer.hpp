@@ -97,6 +97,7 @@ template <typename T>
 const cl::Buffer& argument(const Buffer<T>& b) {
     return b.memory();
 }
+inline const cl::Buffer& argument(const cl::Buffer& b) { return b; }
 template <typename T>
 T argument(T value) {
     static_assert(std::is_arithmetic_v<T> && sizeof(T) == 4, "kernels take 32-bit numbers and buffers");

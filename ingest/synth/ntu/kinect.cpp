@@ -270,7 +270,7 @@ struct Gap {
 
 std::vector<Gap> gaps_of(std::size_t frames, Random& random) {
     std::vector<Gap> out;
-    const auto some = [&](int most) { return static_cast<std::size_t>(1 + random.below(most)); };
+    const auto some = [&](int most) { return std::size_t{1} + static_cast<std::size_t>(random.below(most)); };
     if (random.chance(0.06)) out.push_back({0, some(10)});
     if (random.chance(0.05)) out.push_back({frames - some(8), frames});
     for (const double p : {0.13, 0.04})

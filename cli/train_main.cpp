@@ -1,0 +1,8 @@
+#include "cli/program.hpp"
+
+int main(int argc, char** argv) {
+    return actformer::cli::run_program(argc, argv, [](CLI::App& app) {
+        actformer::cli::add_train(app);
+        actformer::cli::add_model(app);
+    });
+}

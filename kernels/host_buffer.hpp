@@ -1,0 +1,90 @@
+// Device memory that the host reads in place.
+#pragma once
+
+#include <span>
+#include <utility>
+
+#include "kernels/buffer.hpp"
+
+namespace actformer::kernels {
+
+/// `count` values of T where both sides reach them: one and the same memory on a device that shares it with the host,
+/// page-locked host memory on most others.
+template <typename T>
+class HostBuffer {
+  public:
+    HostBuffer() = default;
+    HostBuffer(Device& device, std::size_t count) : device_(&device), count_(count) {
+        try {
+            memory_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+                                 std::max<std::size_t>(count, 1) * sizeof(T));
+        } catch (const cl::Error& e) {
+            raise(device.info(), fmt::format("allocating {} bytes", count * sizeof(T)), e);
+        }
+    }
+    ~HostBuffer() {
+        try {
+            unmap();
+        } catch (const Error&) {  // the device is lost: nothing is left to release
+        }
+    }
+    HostBuffer(HostBuffer&& other) noexcept { swap(other); }
+    HostBuffer& operator=(HostBuffer&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+
+    std::size_t size() const { return count_; }
+    const cl::Buffer& memory() const { return memory_; }
+
+    /// Asks for the values as they are once everything launched before is done; returns at once.
+    void begin_map() {
+        if (mapped_) return;
+        try {
+            mapped_ = static_cast<T*>(device_->queue().enqueueMapBuffer(
+                memory_, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0,
+                std::max<std::size_t>(count_, 1) * sizeof(T), nullptr, &ready_));
+            device_->queue().flush();
+        } catch (const cl::Error& e) {
+            raise(device_->info(), "mapping a buffer", e);
+        }
+    }
+
+    /// Waits for the values. The span is good until unmap() or the end of this buffer; the device must not use it before.
+    std::span<T> map() {
+        begin_map();
+        try {
+            ready_.wait();
+        } catch (const cl::Error& e) {
+            raise(device_->info(), "mapping a buffer", e);
+        }
+        return {mapped_, count_};
+    }
+
+    /// Hands the values back to the device.
+    void unmap() {
+        if (!mapped_) return;
+        try {
+            device_->queue().enqueueUnmapMemObject(memory_, std::exchange(mapped_, nullptr));
+        } catch (const cl::Error& e) {
+            raise(device_->info(), "unmapping a buffer", e);
+        }
+    }
+
+  private:
+    void swap(HostBuffer& other) noexcept {
+        std::swap(device_, other.device_);
+        std::swap(count_, other.count_);
+        std::swap(memory_, other.memory_);
+        std::swap(mapped_, other.mapped_);
+        std::swap(ready_, other.ready_);
+    }
+
+    Device* device_ = nullptr;
+    std::size_t count_ = 0;
+    cl::Buffer memory_;
+    T* mapped_ = nullptr;
+    cl::Event ready_;
+};
+
+}  // namespace actformer::kernels

@@ -1,0 +1,171 @@
+#include "kernels/sampler.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "kernels/sources.hpp"
+
+namespace actformer::kernels {
+namespace {
+
+constexpr std::uint32_t most_persons = 16;  // four bits each in the kernel
+
+cl::Kernel sampler_kernel(Device& device, const std::string& name) {
+    const auto text = std::string(source("philox")) + std::string(source("sampler"));
+    return device.kernel_from(text, "sampler.cl", name);
+}
+
+std::uint64_t integer_root(std::uint64_t square) {
+    std::uint64_t root = 0;
+    for (std::uint64_t bit = std::uint64_t{1} << 31; bit > 0; bit >>= 1)
+        if ((root | bit) * (root | bit) <= square) root |= bit;
+    return root;
+}
+
+std::uint32_t low(std::uint64_t value) {
+    return static_cast<std::uint32_t>(value);
+}
+std::uint32_t high(std::uint64_t value) {
+    return static_cast<std::uint32_t>(value >> 32);
+}
+
+void check(const ClipTable& table) {
+    if (table.clips() == 0) throw Error("no clips to draw from: the view is empty");
+    if (table.labels.size() != table.clips())
+        throw Error("{} clips with {} labels", table.clips(), table.labels.size());
+    if (table.persons < 1 || table.persons > most_persons)
+        throw Error("clips of {} persons: 1 to {} can be drawn", table.persons, most_persons);
+    if (const auto none = std::find(table.frames.begin(), table.frames.end(), 0U); none != table.frames.end())
+        throw Error("clip {} has no frames", none - table.frames.begin());
+}
+
+}  // namespace
+
+ClipStore::ClipStore(Device& device, ClipTable table) : device_(&device), table_(std::move(table)) {
+    check(table_);
+    std::vector<std::uint32_t> rows;
+    std::uint64_t total = 0;
+    for (std::size_t c = 0; c < table_.clips(); ++c) {
+        first_.push_back(total);
+        rows.insert(rows.end(), {low(total), table_.frames[c], table_.labels[c], 0U});
+        total += table_.frames[c];
+    }
+    const auto bytes = total * table_.frame_values() * sizeof(float);
+    if (total > 0xFFFF'FFFFU || bytes > device.info().max_allocation)
+        throw Error(
+            "device {} ({}): {} frames take {} bytes and the largest buffer holds {}; choose a smaller split "
+            "or "
+            "another device with --device",
+            device.info().index, device.info().name, total, bytes, device.info().max_allocation);
+    motion_ = Buffer<float>(device, total * table_.frame_values());
+    clips_ = Buffer<std::uint32_t>(device, rows);
+}
+
+void ClipStore::load(std::size_t clip, std::span<const float> values) {
+    const auto wanted = table_.frames.at(clip) * table_.frame_values();
+    if (values.size() != wanted)
+        throw Error("clip {}: {} values where {} are expected", clip, values.size(), wanted);
+    try {
+        device_->queue().enqueueWriteBuffer(motion_.memory(), CL_TRUE,
+                                            first_[clip] * table_.frame_values() * sizeof(float),
+                                            values.size_bytes(), values.data());
+    } catch (const cl::Error& e) {
+        raise(device_->info(), "copying to the device", e);
+    }
+}
+
+Batch::Batch(const ClipStore& clips, std::uint32_t samples, std::uint32_t window)
+    : samples_(samples), window_(window), sample_values_(clips.table().frame_values() * window) {
+    if (samples == 0 || window == 0)
+        throw Error("a batch of {} windows of {} frames: both must be at least 1", samples, window);
+    values_ = HostBuffer<float>(clips.device(), samples * sample_values_);
+    labels_ = HostBuffer<std::uint32_t>(clips.device(), samples);
+    picks_ = HostBuffer<std::uint32_t>(clips.device(), std::size_t{samples} * 2);
+}
+
+void Batch::begin(std::uint32_t filled, const ClipStore& clips) {
+    if (sample_values_ != clips.table().frame_values() * window_)
+        throw Error("a batch made for clips of another shape cannot be filled from these");
+    unmap();
+    filled_ = filled;
+}
+
+Batch::View Batch::map() {
+    return {values_.map().first(filled_ * sample_values_), labels_.map().first(filled_),
+            picks_.map().first(std::size_t{filled_} * 2)};
+}
+
+void Batch::unmap() {
+    values_.unmap();
+    labels_.unmap();
+    picks_.unmap();
+}
+
+std::uint64_t class_weight(std::uint64_t clips, ClassSampling how) {
+    return how == ClassSampling::plain ? clips << 16 : integer_root(clips << 32);
+}
+
+Sampler::Sampler(const ClipStore& clips, const SamplerOptions& options) : clips_(&clips), options_(options) {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> members;
+    for (std::size_t c = 0; c < clips.table().clips(); ++c)
+        members[clips.table().labels[c]].push_back(static_cast<std::uint32_t>(c));
+    std::vector<std::uint32_t> by_class, first{0};
+    std::vector<std::uint64_t> edge;
+    for (const auto& [label, of_class] : members) {
+        by_class.insert(by_class.end(), of_class.begin(), of_class.end());
+        first.push_back(static_cast<std::uint32_t>(by_class.size()));
+        edge.push_back((edge.empty() ? 0 : edge.back()) + class_weight(of_class.size(), options.classes));
+    }
+    drawn_ = static_cast<std::uint32_t>(members.size());
+    by_class_ = Buffer<std::uint32_t>(clips.device(), by_class);
+    class_first_ = Buffer<std::uint32_t>(clips.device(), first);
+    class_edge_ = Buffer<std::uint64_t>(clips.device(), edge);
+}
+
+void Sampler::draw(std::uint64_t index, Batch& into) const {
+    auto& device = clips_->device();
+    const auto& table = clips_->table();
+    into.begin(into.samples_, *clips_);
+    launch(device, sampler_kernel(device, "draw"), {into.window_, into.samples_}, clips_->motion(),
+           clips_->clips(), by_class_, class_first_, class_edge_, drawn_, low(options_.seed),
+           high(options_.seed), low(index), high(index), static_cast<std::uint32_t>(options_.permute_persons),
+           into.samples_, into.window_, table.persons, table.joints, table.channels, into.values_.memory(),
+           into.labels_.memory(), into.picks_.memory());
+    into.values_.begin_map();
+    into.labels_.begin_map();
+    into.picks_.begin_map();
+}
+
+std::vector<Window> consecutive_windows(std::span<const std::uint32_t> frames, std::uint32_t window) {
+    if (window == 0) throw Error("windows of no frames: ask for at least 1");
+    std::vector<Window> out;
+    for (std::size_t c = 0; c < frames.size(); ++c)
+        for (std::uint32_t i = 0; i < std::max(1U, frames[c] / window); ++i)
+            out.push_back({static_cast<std::uint32_t>(c), i * window});
+    return out;
+}
+
+WindowCutter::WindowCutter(const ClipStore& clips, const std::vector<Window>& windows)
+    : clips_(&clips), count_(windows.size()) {
+    std::vector<std::uint32_t> rows;
+    for (const auto& w : windows) {
+        if (w.clip >= clips.table().clips() || w.first >= clips.table().frames[w.clip])
+            throw Error("a window begins at frame {} of clip {}, which is not there", w.first, w.clip);
+        rows.insert(rows.end(), {w.clip, w.first});
+    }
+    windows_ = Buffer<std::uint32_t>(clips.device(), rows);
+}
+
+void WindowCutter::cut(std::size_t first, Batch& into) const {
+    auto& device = clips_->device();
+    const auto& table = clips_->table();
+    const auto filled = first < count_ ? std::min<std::size_t>(into.samples_, count_ - first) : 0;
+    into.begin(static_cast<std::uint32_t>(filled), *clips_);
+    launch(device, sampler_kernel(device, "cut"), {into.window_, into.filled_}, clips_->motion(),
+           clips_->clips(), windows_, static_cast<std::uint32_t>(first), into.filled_, into.window_,
+           table.persons, table.joints, table.channels, into.values_.memory(), into.labels_.memory(),
+           into.picks_.memory());
+}
+
+}  // namespace actformer::kernels

@@ -1,0 +1,140 @@
+// Batches of windows for training and for evaluation, made on the device from clips that lie there (DESIGN 4.3).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "kernels/buffer.hpp"
+#include "kernels/host_buffer.hpp"
+
+namespace actformer::kernels {
+
+/// What is known of the clips before their frames come.
+struct ClipTable {
+    std::uint32_t persons = 1, joints = 0, channels = 3;  ///< persons at most 16
+    std::vector<std::uint32_t> frames;                    ///< (clips) each at least 1
+    std::vector<std::uint32_t> labels;                    ///< (clips)
+
+    std::size_t clips() const { return frames.size(); }
+    std::size_t frame_values() const { return std::size_t{persons} * joints * channels; }
+};
+
+/// Clips on a device: every frame, and which clip has which label.
+class ClipStore {
+  public:
+    /// Makes room. Throws Error for a table without clips, a clip without frames, or frames that do not fit on the device.
+    ClipStore(Device& device, ClipTable table);
+
+    /// The frames of one clip: values (frames, P, K, C).
+    void load(std::size_t clip, std::span<const float> values);
+
+    const ClipTable& table() const { return table_; }
+    Device& device() const { return *device_; }
+    const Buffer<float>& motion() const { return motion_; }
+    const Buffer<std::uint32_t>& clips() const { return clips_; }
+
+  private:
+    Device* device_;
+    ClipTable table_;
+    std::vector<std::uint64_t> first_;  ///< frame of each clip
+    Buffer<float> motion_;
+    Buffer<std::uint32_t> clips_;  ///< (clips, 4): first frame, frames, label, 0
+};
+
+/// A batch in memory that host and device share. Make two and fill one while the other is read.
+class Batch {
+  public:
+    Batch(const ClipStore& clips, std::uint32_t samples, std::uint32_t window);
+
+    std::uint32_t samples() const { return samples_; }
+    std::uint32_t window() const { return window_; }
+
+    /// How many of the samples were filled last.
+    std::uint32_t filled() const { return filled_; }
+
+    struct View {
+        std::span<float> values;          ///< (filled, P*C, window, K)
+        std::span<std::uint32_t> labels;  ///< (filled)
+        std::span<std::uint32_t> picks;   ///< (filled, 2): the clip and its first frame
+    };
+
+    /// Waits until the batch is made. The spans are good until it is filled anew, unmapped or gone.
+    View map();
+    void unmap();
+
+    /// The values (samples, P*C, window, K) for kernels that read them on the device, while not mapped.
+    const cl::Buffer& values() const { return values_.memory(); }
+
+  private:
+    friend class Sampler;
+    friend class WindowCutter;
+    void begin(std::uint32_t filled, const ClipStore& clips);
+
+    std::uint32_t samples_ = 0, window_ = 0, filled_ = 0;
+    std::size_t sample_values_ = 0;
+    HostBuffer<float> values_;
+    HostBuffer<std::uint32_t> labels_, picks_;
+};
+
+enum class ClassSampling {
+    square_root,  ///< class c with probability proportional to sqrt(its clips)
+    plain         ///< to its clips: every clip as likely
+};
+
+struct SamplerOptions {
+    std::uint64_t seed = 0;
+    ClassSampling classes = ClassSampling::square_root;
+    bool permute_persons = true;
+};
+
+/// Random batches: a class, a clip of it, a window (a crop of a longer clip; a shorter one runs back and forth), the order
+/// of its persons. Sample j of batch i under seed s is the same on every device and for every batch size: only integers
+/// decide. Classes without clips are never drawn.
+class Sampler {
+  public:
+    /// `clips` must outlive the sampler.
+    Sampler(const ClipStore& clips, const SamplerOptions& options);
+
+    /// Starts to fill `into` with batch `index` and returns at once; into.map() waits for it.
+    void draw(std::uint64_t index, Batch& into) const;
+
+  private:
+    const ClipStore* clips_;
+    SamplerOptions options_;
+    std::uint32_t drawn_ = 0;                       ///< classes that have clips
+    Buffer<std::uint32_t> by_class_, class_first_;  ///< (clips), (drawn + 1)
+    Buffer<std::uint64_t> class_edge_;              ///< (drawn)
+};
+
+/// The weight of a class of `clips` clips: the square root in steps of 2^-16, or the number itself in the same steps.
+std::uint64_t class_weight(std::uint64_t clips, ClassSampling how);
+
+struct Window {
+    std::uint32_t clip = 0, first = 0;
+    bool operator==(const Window&) const = default;
+};
+
+/// Consecutive windows of `window` frames of every clip in turn. What is left of a clip at its end is dropped; a clip
+/// shorter than a window gives one that runs back and forth.
+std::vector<Window> consecutive_windows(std::span<const std::uint32_t> frames, std::uint32_t window);
+
+/// Windows in a given order, each as it is in the clip: for evaluation.
+class WindowCutter {
+  public:
+    /// `clips` must outlive the cutter.
+    WindowCutter(const ClipStore& clips, const std::vector<Window>& windows);
+
+    std::size_t windows() const { return count_; }
+
+    /// Starts to fill `into` with the windows from number `first` on, as many as it holds and there are.
+    void cut(std::size_t first, Batch& into) const;
+
+  private:
+    const ClipStore* clips_;
+    std::size_t count_;
+    Buffer<std::uint32_t> windows_;  ///< (windows, 2)
+};
+
+}  // namespace actformer::kernels

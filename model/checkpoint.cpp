@@ -1,0 +1,108 @@
+#include "model/checkpoint.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <numeric>
+
+#include "ingest/checksum.hpp"
+#include "ingest/file.hpp"
+#include "kernels/error.hpp"
+
+namespace actformer::model {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr std::string_view heading = "actformer checkpoint 1\n";
+static_assert(std::endian::native == std::endian::little, "checkpoints hold little-endian numbers");
+
+/// Finished checkpoints, the newest first.
+std::vector<fs::path> checkpoints_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    if (!fs::is_directory(folder)) return files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const auto name = entry.path().filename().string();
+        if (name.starts_with("checkpoint-") && name.find('.') == std::string::npos)
+            files.push_back(entry.path());
+    }
+    std::sort(files.rbegin(), files.rend());
+    return files;
+}
+
+/// The text up to the next line end, which is taken off `bytes`; none where there is no line end.
+std::optional<std::string_view> take_line(std::string_view& bytes) {
+    const auto end = bytes.find('\n');
+    if (end == std::string_view::npos) return std::nullopt;
+    const auto line = bytes.substr(0, end);
+    bytes.remove_prefix(end + 1);
+    return line;
+}
+
+std::optional<Array> take_array(const Json& json, std::string_view& bytes) {
+    Array array{json.at("name"), json.at("shape"), {}};
+    const auto count =
+        std::accumulate(array.shape.begin(), array.shape.end(), std::int64_t{1}, std::multiplies<>());
+    const auto size = static_cast<std::size_t>(count) * sizeof(float);
+    if (size > bytes.size()) return std::nullopt;
+    array.values.resize(static_cast<std::size_t>(count));
+    std::memcpy(array.values.data(), bytes.data(), size);
+    bytes.remove_prefix(size);
+    return array;
+}
+
+std::string read_whole(const fs::path& path) {
+    std::string bytes;
+    ingest::read_in_pieces(path, [&](std::string_view piece) { bytes += piece; });
+    return bytes;
+}
+
+}  // namespace
+
+std::string to_bytes(const Checkpoint& checkpoint) {
+    auto arrays = Json::array();
+    for (const auto& array : checkpoint.arrays)
+        arrays.push_back({{"name", array.name}, {"shape", array.shape}});
+    auto body =
+        Json{{"epoch", checkpoint.epoch}, {"state", checkpoint.state}, {"arrays", arrays}}.dump() + "\n";
+    for (const auto& array : checkpoint.arrays)
+        body.append(reinterpret_cast<const char*>(array.values.data()), array.values.size() * sizeof(float));
+    return std::string(heading) + ingest::checksum(body) + "\n" + body;
+}
+
+std::optional<Checkpoint> checkpoint_from(std::string_view bytes) {
+    if (!bytes.starts_with(heading)) return std::nullopt;
+    bytes.remove_prefix(heading.size());
+    const auto checksum = take_line(bytes);
+    if (!checksum || ingest::checksum(bytes) != *checksum) return std::nullopt;
+    const auto line = take_line(bytes);
+    if (!line) return std::nullopt;
+    const auto json = Json::parse(*line);  // whole, as the checksum says
+    Checkpoint checkpoint{json.at("epoch"), json.at("state"), {}};
+    for (const auto& one : json.at("arrays")) {
+        auto array = take_array(one, bytes);
+        if (!array) return std::nullopt;
+        checkpoint.arrays.push_back(std::move(*array));
+    }
+    return checkpoint;
+}
+
+void save_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
+    ingest::write_whole(folder / fmt::format("checkpoint-{:05}", checkpoint.epoch), to_bytes(checkpoint));
+    const auto files = checkpoints_in(folder);
+    for (std::size_t i = 2; i < files.size(); ++i) fs::remove(files[i]);
+}
+
+std::optional<Checkpoint> newest_checkpoint(const fs::path& folder,
+                                            const std::function<void(const std::string&)>& note) {
+    const auto files = checkpoints_in(folder);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        if (auto checkpoint = checkpoint_from(read_whole(files[i]))) return checkpoint;
+        note(fmt::format("{}: cut short or damaged; {}", files[i].string(),
+                         i + 1 < files.size() ? "going back to the one before" : "starting anew"));
+        fs::remove(files[i]);
+    }
+    return std::nullopt;
+}
+
+}  // namespace actformer::model

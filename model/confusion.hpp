@@ -1,0 +1,39 @@
+// Which class was taken for which.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace actformer::model {
+
+class Confusion {
+  public:
+    explicit Confusion(std::size_t classes) : classes_(classes), counts_(classes * classes, 0) {}
+
+    void add(std::size_t truth, std::size_t guess) { ++counts_[truth * classes_ + guess]; }
+
+    std::size_t classes() const { return classes_; }
+    std::uint64_t at(std::size_t truth, std::size_t guess) const { return counts_[truth * classes_ + guess]; }
+    std::uint64_t samples() const;
+
+    /// Mean over the classes that have samples of the share recognised, 0..1; 0 without samples.
+    double mean_class_accuracy() const;
+
+    /// Share of the samples recognised, 0..1; 0 without samples.
+    double sample_accuracy() const;
+
+    /// One row a true class: its name, its samples, and its shares in per cent.
+    std::string table(const std::vector<std::string>& names) const;
+
+    /// (classes, classes) counts, rows the truth.
+    std::vector<std::vector<std::uint64_t>> rows() const;
+
+  private:
+    std::uint64_t row_sum(std::size_t truth) const;
+
+    std::size_t classes_;
+    std::vector<std::uint64_t> counts_;
+};
+
+}  // namespace actformer::model

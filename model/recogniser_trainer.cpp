@@ -1,0 +1,323 @@
+#include "model/recogniser_trainer.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "ingest/dataset.hpp"
+#include "ingest/file.hpp"
+#include "kernels/error.hpp"
+#include "model/blas.hpp"
+#include "model/checkpoint.hpp"
+#include "model/run_folder.hpp"
+#include "model/sgd.hpp"
+#include "model/stgcn_net.hpp"
+#include "model/weights_file.hpp"
+#include "model/window_feed.hpp"
+
+namespace actformer::model {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+/// A well-mixed number for the dropout of step `step`.
+std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step) {
+    std::uint64_t x = seed * 0x9E3779B97F4A7C15U + step + 1;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
+    return x ^ (x >> 31);
+}
+
+at::Device torch_device(const std::string& name) {
+    try {
+        const at::Device device(name);
+        at::zeros({1}, at::TensorOptions().device(device));
+        return device;
+    } catch (const std::exception&) {
+        throw Error("device {}: this libtorch cannot train there; device=cpu always works", name);
+    }
+}
+
+ingest::Dataset open_dataset(const RecogniserSettings& settings) {
+    if (settings.data.empty()) throw Error("no dataset: give --data DATASET, or data: in the configuration");
+    const auto folders = ingest::datasets_at(settings.data);
+    if (folders.size() != 1)
+        throw Error("{}: holds {} datasets; train on one, as in {}", settings.data, folders.size(),
+                    folders[0].string());
+    return ingest::Dataset(folders[0]);
+}
+
+class Training {
+  public:
+    Training(const Config& config, const std::filesystem::path& run, const TrainingEvents& events);
+    TrainingResult run();
+
+  private:
+    void say(const std::string& line) const {
+        if (events_.note) events_.note(line);
+    }
+    void compare_with_earlier_run() const;
+    void say_what_is_missing() const;
+    void resume();
+    EpochReport train_epoch();
+    void step(const Windows& windows, double rate, std::uint64_t index);
+    void score(EpochReport& report);
+    void keep(const EpochReport& report);
+    std::vector<Array> momenta();
+    at::Tensor to_tensor(const Windows& windows) const;
+    at::Tensor labels_of(const Windows& windows) const;
+    std::map<std::string, std::string> notes(std::uint64_t epoch) const;
+    std::filesystem::path last_weights() const { return folder_.path() / "weights-last.h5"; }
+    std::filesystem::path best_weights() const { return folder_.path() / "weights-best.h5"; }
+
+    const Config& config_;
+    const TrainingEvents& events_;
+    RecogniserSettings settings_;
+    ingest::Dataset dataset_;
+    StgcnSettings shape_;
+    kernels::Device opencl_;
+    kernels::ClipStore train_clips_;
+    std::optional<kernels::ClipStore> test_clips_;
+    RandomFeed feed_;
+    at::Device device_;
+    StgcnNet net_;
+    Sgd sgd_;
+    RunFolder folder_;  ///< made last: what cannot be trained leaves no folder behind
+    std::uint64_t steps_an_epoch_ = 0, epochs_ = 0;
+    std::uint64_t best_epoch_ = 0;
+    double best_accuracy_ = -1;
+    at::Tensor loss_sum_,
+        right_sum_;  ///< of the running epoch, on the device: reading them would wait for every step
+    Confusion confusion_;
+};
+
+std::optional<kernels::ClipStore> load_test_split(kernels::Device& device, const ingest::Dataset& dataset,
+                                                  const std::string& split) {
+    if (split.empty()) return std::nullopt;
+    return load_split(device, dataset, split);
+}
+
+std::vector<at::Tensor> trained(StgcnNet& net) {
+    std::vector<at::Tensor> parameters;
+    for (const auto& info : net.infos())
+        if (info.trained) parameters.push_back(net.weight(info.name));
+    return parameters;
+}
+
+Training::Training(const Config& config, const std::filesystem::path& run, const TrainingEvents& events)
+    : config_(config),
+      events_(events),
+      settings_(recogniser_settings(config)),
+      dataset_(open_dataset(settings_)),
+      shape_(network_for(settings_, dataset_.header().topology, dataset_.header().persons,
+                         dataset_.header().classes.size(), dataset_.folder().string())),
+      opencl_(settings_.opencl),
+      train_clips_(load_split(opencl_, dataset_, settings_.train_split)),
+      test_clips_(load_test_split(opencl_, dataset_, settings_.test_split)),
+      feed_(train_clips_, {settings_.seed, kernels::ClassSampling::plain, true}, settings_.batch,
+            settings_.frames),
+      device_(torch_device(settings_.device)),
+      net_(shape_, settings_.seed, device_),
+      sgd_(trained(net_), {settings_.momentum, settings_.weight_decay, settings_.nesterov}),
+      folder_(run),
+      confusion_(shape_.classes) {
+    steps_an_epoch_ = (train_clips_.table().clips() + settings_.batch - 1) / settings_.batch;
+    compare_with_earlier_run();
+    ingest::write_whole(folder_.config(), config_.yaml());
+    say_what_is_missing();
+    resume();
+}
+
+void Training::compare_with_earlier_run() const {
+    if (!std::filesystem::exists(folder_.config())) return;
+    auto earlier = recogniser_config();
+    earlier.load(folder_.config());
+    const auto differences = config_.differences(earlier, keys_free_to_change());
+    if (!differences.empty())
+        throw Error("{}: holds a training with other settings ({}); choose another -o",
+                    folder_.path().string(), fmt::join(differences, ", "));
+}
+
+/// A class that is never seen in training is never recognised: worth a line before hours of it.
+void Training::say_what_is_missing() const {
+    std::vector<std::size_t> counts(shape_.classes, 0);
+    for (const auto label : train_clips_.table().labels) ++counts[label];
+    std::vector<std::string> missing;
+    for (std::size_t c = 0; c < counts.size(); ++c)
+        if (counts[c] == 0) missing.push_back(dataset_.header().classes[c]);
+    if (!missing.empty())
+        say(fmt::format("split {} has no clip of {} of the {} classes, which will not be recognised: {}",
+                        settings_.train_split, missing.size(), counts.size(), fmt::join(missing, ", ")));
+}
+
+void Training::resume() {
+    const auto found = newest_checkpoint(folder_.path(), [this](const std::string& line) { say(line); });
+    if (found) {
+        if (found->state.at("dataset") != dataset_.fingerprint())
+            throw Error("{}: holds a training on other data; choose another -o", folder_.path().string());
+        const auto where = fmt::format("{}: checkpoint of epoch {}", folder_.path().string(), found->epoch);
+        net_.load(found->arrays, where);
+        const at::NoGradGuard no_gradients;
+        auto& momenta = sgd_.momenta();
+        const auto first = found->arrays.size() - momenta.size();  // they follow the weights
+        for (std::size_t i = 0; i < momenta.size(); ++i) {
+            auto values = found->arrays.at(first + i).values;
+            momenta[i].copy_(at::from_blob(values.data(), momenta[i].sizes(), at::kFloat));
+        }
+        epochs_ = found->epoch;
+        best_epoch_ = found->state.at("best_epoch");
+        best_accuracy_ = found->state.at("best_accuracy");
+        say(fmt::format("going on after epoch {} of {}", epochs_, settings_.epochs));
+    }
+    folder_.rewind_log(epochs_);
+}
+
+at::Tensor Training::to_tensor(const Windows& windows) const {
+    const auto& table = train_clips_.table();
+    return at::from_blob(windows.values, {windows.count, shape_.channels, settings_.frames, table.joints},
+                         at::kFloat)
+        .to(device_);
+}
+
+at::Tensor Training::labels_of(const Windows& windows) const {
+    auto labels = at::empty({windows.count}, at::kLong);
+    std::copy_n(windows.labels, windows.count, labels.data_ptr<std::int64_t>());
+    return labels.to(device_);
+}
+
+void Training::step(const Windows& windows, double rate, std::uint64_t index) {
+    const auto labels = labels_of(windows);
+    const auto output = net_.train_forward(to_tensor(windows), step_seed(settings_.seed, index));
+    const auto loss = at::cross_entropy_loss(output.logits, labels);
+    loss.backward();
+    sgd_.step(rate);
+    loss_sum_ += loss.detach();
+    right_sum_ += output.logits.detach().argmax(1).eq(labels).sum();
+}
+
+EpochReport Training::train_epoch() {
+    EpochReport report;
+    report.epoch = epochs_ + 1;
+    report.rate = settings_.rate_at(epochs_);
+    loss_sum_ = at::zeros({}, at::TensorOptions(at::kFloat).device(device_));
+    right_sum_ = at::zeros({}, at::TensorOptions(at::kLong).device(device_));
+    const auto start = Clock::now();
+    const auto all_steps = static_cast<double>(steps_an_epoch_ * settings_.epochs);
+    for (std::uint64_t i = 0; i < steps_an_epoch_; ++i) {
+        const auto index = epochs_ * steps_an_epoch_ + i;
+        step(feed_.batch(index), report.rate, index);
+        if (events_.progress)
+            events_.progress(static_cast<double>(index + 1) / all_steps, (index + 1) * settings_.batch);
+    }
+    const auto windows = static_cast<double>(steps_an_epoch_ * settings_.batch);
+    report.loss = loss_sum_.item<double>() / static_cast<double>(steps_an_epoch_);
+    report.train_accuracy = static_cast<double>(right_sum_.item<std::int64_t>()) / windows;
+    report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    report.windows_a_second = windows / report.seconds;
+    if (!std::isfinite(report.loss))
+        throw Error("{}: the loss of epoch {} is no number; a smaller rate than {} may help",
+                    folder_.path().string(), report.epoch, report.rate);
+    ++epochs_;
+    return report;
+}
+
+void Training::score(EpochReport& report) {
+    if (!test_clips_) return;
+    confusion_ = Confusion(shape_.classes);
+    for_each_window(*test_clips_, settings_.batch, settings_.frames, [&](const Windows& windows) {
+        const auto guesses = net_.eval_forward(to_tensor(windows)).logits.argmax(1).to(at::kCPU);
+        const auto* guess = guesses.data_ptr<std::int64_t>();
+        for (std::uint32_t i = 0; i < windows.count; ++i)
+            confusion_.add(windows.labels[i], static_cast<std::size_t>(guess[i]));
+    });
+    report.scored = true;
+    report.class_accuracy = confusion_.mean_class_accuracy();
+    report.sample_accuracy = confusion_.sample_accuracy();
+    report.best = report.class_accuracy > best_accuracy_;
+    if (!report.best) return;
+    best_accuracy_ = report.class_accuracy;
+    best_epoch_ = report.epoch;
+}
+
+std::vector<Array> Training::momenta() {
+    std::vector<Array> arrays;
+    for (const auto& tensor : sgd_.momenta()) {
+        const auto values = tensor.to(at::kCPU).contiguous();
+        const auto* first = values.data_ptr<float>();
+        arrays.push_back({fmt::format("momentum.{}", arrays.size()),
+                          tensor.sizes().vec(),
+                          {first, first + values.numel()}});
+    }
+    return arrays;
+}
+
+std::map<std::string, std::string> Training::notes(std::uint64_t epoch) const {
+    return {{"program", "actformer " ACTFORMER_VERSION},
+            {"configuration", config_.yaml()},
+            {"dataset", dataset_.header().name},
+            {"fingerprint", dataset_.fingerprint()},
+            {"epoch", std::to_string(epoch)}};
+}
+
+/// The checkpoint comes last: what a kill leaves before it is written anew, the same.
+void Training::keep(const EpochReport& report) {
+    Json line{{"epoch", report.epoch},
+              {"rate", report.rate},
+              {"loss", report.loss},
+              {"train_accuracy", report.train_accuracy}};
+    if (report.scored) {
+        line["class_accuracy"] = report.class_accuracy;
+        line["sample_accuracy"] = report.sample_accuracy;
+        line["confusion"] = confusion_.rows();
+    }
+    line["seconds"] = report.seconds;
+    line["windows_a_second"] = report.windows_a_second;
+    folder_.log(line);
+
+    Checkpoint checkpoint{epochs_, {}, net_.arrays()};
+    save_weights(last_weights(), shape_, checkpoint.arrays, notes(epochs_));
+    if (report.best) save_weights(best_weights(), shape_, checkpoint.arrays, notes(epochs_));
+    checkpoint.state = {
+        {"program", ACTFORMER_VERSION},
+        {"dataset", dataset_.fingerprint()},
+        {"seed", settings_.seed},  // with the steps done, all there is to the random numbers' state
+        {"steps", epochs_ * steps_an_epoch_},
+        {"best_epoch", best_epoch_},
+        {"best_accuracy", best_accuracy_}};
+    for (auto& array : momenta()) checkpoint.arrays.push_back(std::move(array));
+    save_checkpoint(folder_.path(), checkpoint);
+}
+
+TrainingResult Training::run() {
+    EpochReport report;
+    while (epochs_ < settings_.epochs) {
+        report = train_epoch();
+        score(report);
+        keep(report);
+        if (events_.epoch) events_.epoch(report);
+    }
+    if (!report.scored) score(report);  // an earlier call did all epochs
+    TrainingResult result{epochs_,        best_epoch_, best_accuracy_, confusion_, dataset_.header().classes,
+                          last_weights(), {}};
+    if (best_epoch_ > 0) result.best_weights = best_weights();
+    return result;
+}
+
+}  // namespace
+
+TrainingResult train_recogniser(const Config& config, const std::filesystem::path& run,
+                                const TrainingEvents& events) {
+    set_threads(recogniser_settings(config).threads);
+    if (events.note) events.note(check_blas().line);
+    try {
+        return Training(config, run, events).run();
+    } catch (const c10::Error& e) {  // what() goes on with a stack
+        const std::string text = e.what_without_backtrace();
+        throw Error("libtorch: {}; a smaller batch helps where memory ran out",
+                    text.substr(0, text.find('\n')));
+    }
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,45 @@
+// Windows of a dataset's split on their way to a trainer: loaded to the OpenCL device once, drawn there, read in place.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ingest/dataset.hpp"
+#include "kernels/sampler.hpp"
+
+namespace actformer::model {
+
+/// Windows in host memory, good until the feed moves on.
+struct Windows {
+    std::uint32_t count = 0;
+    float* values = nullptr;                ///< (count, P*C, T, K)
+    const std::uint32_t* labels = nullptr;  ///< (count)
+};
+
+/// One split's clips on the device. Throws Error where the split is unknown or empty.
+kernels::ClipStore load_split(kernels::Device& device, const ingest::Dataset& dataset,
+                              const std::string& split);
+
+/// Random batches, each drawn while the one before is used.
+class RandomFeed {
+  public:
+    RandomFeed(const kernels::ClipStore& clips, const kernels::SamplerOptions& options, std::uint32_t batch,
+               std::uint32_t frames);
+
+    /// Batch `index`; quick where it follows the one before.
+    Windows batch(std::uint64_t index);
+
+  private:
+    kernels::Sampler sampler_;
+    kernels::Batch slots_[2];
+    std::uint64_t drawn_[2];
+};
+
+/// Calls `use` with every consecutive window of the clips, `batch` or fewer at a time.
+void for_each_window(const kernels::ClipStore& clips, std::uint32_t batch, std::uint32_t frames,
+                     const std::function<void(const Windows&)>& use);
+
+}  // namespace actformer::model

@@ -1,0 +1,199 @@
+// `actformer train recogniser` and `actformer model` as their users meet them, on toy motions told apart by what turns.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "ingest/hdf5.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Class c swings its joint c, at a pace and phase that differ from clip to clip.
+std::string toy_clip(int label, int index) {
+    std::string text =
+        "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Xrotation Yrotation "
+        "Zrotation\n";
+    for (int j = 0; j < 3; ++j)
+        text += fmt::format(
+            "JOINT J{}\n{{\nOFFSET 0 20 0\nCHANNELS 3 Xrotation Yrotation Zrotation\nEnd Site\n{{\nOFFSET 0 "
+            "5 0\n}}\nJOINT "
+            "K{}\n{{\nOFFSET 5 9 0\nCHANNELS 1 Zrotation\n}}\n}}\n",
+            j, j);
+    text += "}\nMOTION\nFrames: 40\nFrame Time: 0.0333333\n";
+    for (int t = 0; t < 40; ++t) {
+        text += "0 90 0 0 0 0";
+        for (int j = 0; j < 3; ++j)
+            text +=
+                fmt::format(" {:.3f} 0 0 0",
+                            j == label ? 60 * std::sin((0.2 + 0.01 * (index % 5)) * t + index) : 2.0 * index);
+        text += "\n";
+    }
+    return text;
+}
+
+/// A dataset of three classes, made once for all tests: 12 clips each in split s/train, 4 in s/test; class c2 is not in
+/// split s/two, and split s/none is empty.
+const fs::path& toy() {
+    static const TempDir dir;
+    static const fs::path out = [] {
+        for (int label = 0; label < 3; ++label)
+            for (int i = 0; i < 16; ++i)
+                write_file(dir / fmt::format("raw/c{}_{}_{}.bvh", label, i < 12 ? "a" : "b", i),
+                           toy_clip(label, i));
+        const auto result =
+            run_actformer("ingest bvh " + (dir / "raw").string() + " -o " + (dir / "toy").string() +
+                          " --name '{action}_{part}_{index}' --split s/train=part:a --split s/test=part:b"
+                          " --split s/two=action:c0,c1 --split s/none=part:z");
+        EXPECT_EQ(result.exit, 0) << result.output;
+        return dir / "toy";
+    }();
+    return out;
+}
+
+struct TrainRecogniser : testing::Test {
+    void SetUp() override {
+        write_file(dir / "toy.yaml",
+                   "model: recogniser\nwidth: 0.25\nframes: 16\nbatch: 12\nepochs: 3\nrate_drops: []\n"
+                   "train_split: s/train\ntest_split: s/test\nseed: 4\nthreads: 1\n");
+    }
+    std::string line(const std::string& run, const std::string& more = "") const {
+        return "train recogniser -c " + (dir / "toy.yaml").string() + " --data " + toy().string() + " -o " +
+               (dir / run).string() + " " + more;
+    }
+    CommandResult train(const std::string& run, const std::string& more = "") const {
+        return run_actformer(line(run, more));
+    }
+
+    void expect_refused(const CommandResult& result, const std::vector<std::string>& words) const {
+        EXPECT_EQ(result.exit, 1) << result.output;
+        const auto last = result.output.substr(result.output.rfind("actformer: "));
+        EXPECT_EQ(lines_in(last), 1) << result.output;
+        for (const auto& word : words) EXPECT_NE(last.find(word), std::string::npos) << word << ": " << last;
+    }
+
+    /// Starts a training and kills it once `file` is there.
+    void train_and_kill(const std::string& run, const std::string& file) const {
+        const auto child = ::fork();
+        if (child == 0) {
+            const auto command =
+                "exec " ACTFORMER_PROGRAM " " + line(run, "threads=2") + " 2>/dev/null >/dev/null";
+            ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+            ::_exit(127);
+        }
+        for (int i = 0; i < 6000 && !fs::exists(dir / (run + "/" + file)); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ::kill(child, SIGKILL);
+        int status = 0;
+        ::waitpid(child, &status, 0);
+    }
+
+    TempDir dir;
+};
+
+std::size_t epochs_logged(const fs::path& log) {
+    std::size_t epochs = 0;
+    std::istringstream lines(read_file(log));
+    for (std::string text; std::getline(lines, text);)
+        EXPECT_EQ(nlohmann::json::parse(text).at("epoch"), ++epochs);
+    return epochs;
+}
+
+}  // namespace
+
+TEST_F(TrainRecogniser, TellsToyClassesApart) {
+    const auto result = train("run", "epochs=40 rate_drops=30 dropout=0.2 --json 2>/dev/null");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    const auto json = nlohmann::json::parse(result.output);
+    EXPECT_EQ(json.at("class_accuracy"), 1.0) << result.output;
+    EXPECT_EQ(json.at("confusion").size(), 3U);
+    EXPECT_EQ(epochs_logged(dir / "run/log.jsonl"), 40U);
+    const actformer::ingest::hdf5::Reader weights(dir / "run/weights-best.h5");
+    EXPECT_EQ(weights.attribute_numbers("classes"), std::vector<std::int64_t>{3});
+    EXPECT_EQ(weights.attribute_numbers("channels"), std::vector<std::int64_t>{3});
+    EXPECT_EQ(weights.attribute_numbers("center"), std::vector<std::int64_t>{0});
+    EXPECT_EQ(weights.shape("st_gcn_networks.3.tcn.2.weight"),
+              (actformer::ingest::hdf5::Shape{16, 16, 9, 1}));
+}
+
+TEST_F(TrainRecogniser, GoesOnAfterAKillToTheSameBits) {
+    ASSERT_EQ(train("whole", "threads=2").exit, 0);
+    for (const std::string moment :
+         {"log.jsonl", "weights-last.h5", "checkpoint-00001", "checkpoint-00002"}) {
+        train_and_kill("killed", moment);
+        const auto again = train("killed", "threads=2");
+        ASSERT_EQ(again.exit, 0) << again.output;
+        for (const std::string file : {"weights-last.h5", "weights-best.h5", "checkpoint-00003"})
+            EXPECT_EQ(read_file(dir / ("whole/" + file)), read_file(dir / ("killed/" + file)))
+                << moment << ", " << file;
+        EXPECT_EQ(epochs_logged(dir / "killed/log.jsonl"), 3U);
+        fs::remove_all(dir / "killed");
+    }
+}
+
+TEST_F(TrainRecogniser, GoesBackBehindATruncatedCheckpoint) {
+    ASSERT_EQ(train("run").exit, 0);
+    const auto weights = read_file(dir / "run/weights-last.h5");
+    fs::resize_file(dir / "run/checkpoint-00003", 5000);
+    const auto again = train("run");
+    EXPECT_EQ(again.exit, 0) << again.output;
+    EXPECT_NE(again.output.find("checkpoint-00003: cut short or damaged; going back to the one before"),
+              std::string::npos);
+    EXPECT_NE(again.output.find("going on after epoch 2 of 3"), std::string::npos) << again.output;
+    EXPECT_EQ(read_file(dir / "run/weights-last.h5"), weights);
+}
+
+TEST_F(TrainRecogniser, KeepsARunToItsSettingsAndToOneTraining) {
+    ASSERT_EQ(train("run", "epochs=1").exit, 0);
+    expect_refused(train("run", "batch=6"), {"other settings", "batch is 12 there and 6 here", "another -o"});
+    EXPECT_EQ(train("run", "epochs=2").exit, 0);  // going on for longer is welcome
+    const int lock = ::open((dir / "run/lock").c_str(), O_RDWR);
+    ASSERT_EQ(::flock(lock, LOCK_EX | LOCK_NB), 0);
+    expect_refused(train("run"), {"another training", "another -o"});
+    ::close(lock);
+}
+
+TEST_F(TrainRecogniser, RefusesWhatCannotBeTrained) {
+    expect_refused(train("r", "train_split=s/none"), {"split s/none holds no clip"});
+    expect_refused(train("r", "test_split=s/nowhere"), {"no split 's/nowhere'", "s/train"});
+    expect_refused(train("r", "persons=2"), {"1 person", "persons: 2"});
+    expect_refused(train("r", "classes=94"), {"3 classes", "classes: 94"});
+    expect_refused(train("r", "device=cuda:7"), {"device cuda:7", "device=cpu"});
+    expect_refused(train("r", "device=marble"), {"device marble"});
+    expect_refused(train("r", "bacth=3"), {"did you mean 'batch'"});
+    expect_refused(run_actformer("train recogniser -c " + (dir / "toy.yaml").string() + " -o r"), {"--data"});
+    EXPECT_FALSE(fs::exists(dir / "r"));
+}
+
+TEST_F(TrainRecogniser, SaysWhichClassesHaveNoClip) {
+    const auto result = train("run", "train_split=s/two epochs=1");
+    EXPECT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("no clip of 1 of the 3 classes, which will not be recognised: c2"),
+              std::string::npos)
+        << result.output;
+}
+
+TEST(ModelCommand, CountsParameters) {
+    const std::string config = ACTFORMER_SOURCE "/model/configs/recogniser-ntu-1p.yaml";
+    const auto json = nlohmann::json::parse(run_actformer("model --json " + config).output);
+    std::int64_t sum = 0;
+    for (const auto& layer : json.at("layers")) sum += layer.at("parameters").get<std::int64_t>();
+    EXPECT_EQ(json.at("parameters"), sum);
+    EXPECT_EQ(json.at("layers").back().at("output"), nlohmann::json({94}));
+    const auto text = run_actformer("model " + config + " width=0.5");
+    EXPECT_EQ(text.exit, 0);
+    EXPECT_NE(text.output.find("total"), std::string::npos);
+    EXPECT_EQ(run_actformer("model " ACTFORMER_SOURCE "/model/configs/recogniser-small.yaml").exit, 1);
+}
