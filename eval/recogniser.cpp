@@ -18,7 +18,7 @@ std::vector<float> to_float(const std::vector<double>& values) {
 /// A layer on the device.
 struct DeviceLayer {
     std::uint32_t in = 0, out = 0, stride = 1;
-    kernels::Mixture mixture;  ///< joints to the panels that the graph convolution multiplies
+    kernels::Mixture mixture;  ///< joints to the panels that the graph convolution multiplies beside theirs
     kernels::Mixture stepped;  ///< joints as they are, for the residual's convolution at a stride
     kernels::Problems graph, temporal, residual;
     kernels::PackedWeights graph_weight, temporal_weight, residual_weight;
@@ -45,22 +45,28 @@ struct MixtureBuilder {
 
 struct ProblemBuilder {
     std::vector<std::uint32_t> first{0}, segments;
+    std::vector<float> scales;
 
-    void add(std::uint32_t panel, std::uint32_t set) { segments.insert(segments.end(), {panel, set}); }
+    void add(std::uint32_t panel, std::uint32_t set, double scale = 1) {
+        segments.insert(segments.end(), {panel, set});
+        scales.push_back(static_cast<float>(scale));
+    }
     void close() { first.push_back(static_cast<std::uint32_t>(segments.size() / 2)); }
     kernels::Problems build(kernels::Device& device) const {
         return {Buffer<std::uint32_t>(device, first), Buffer<std::uint32_t>(device, segments),
-                static_cast<std::uint32_t>(first.size() - 1)};
+                Buffer<float>(device, scales), static_cast<std::uint32_t>(first.size() - 1)};
     }
 };
 
-/// One panel for every joint and part of its neighbourhood that is not empty, one problem for every joint.
+/// One problem for every joint. Its own part of the neighbourhood reads the joint's panel as it is and scales the product,
+/// so that only the other two parts need panels of mixed joints, and those only where they are not empty.
 void place_graph(const kernels::Stgcn& kernels, const FoldedLayer& from, std::uint32_t joints,
                  DeviceLayer& layer) {
     MixtureBuilder mixture;
     ProblemBuilder problems;
     for (std::uint32_t w = 0; w < joints; ++w) {
-        for (std::uint32_t part = 0; part < 3; ++part) {
+        problems.add(w, 0, from.mixing[0][w * joints + w]);
+        for (std::uint32_t part = 1; part < 3; ++part) {
             bool any = false;
             for (std::uint32_t v = 0; v < joints; ++v)
                 if (const double share = from.mixing[part][v * joints + w]; share != 0) {
@@ -68,7 +74,7 @@ void place_graph(const kernels::Stgcn& kernels, const FoldedLayer& from, std::ui
                     any = true;
                 }
             if (!any) continue;
-            problems.add(mixture.panels(), part);
+            problems.add(joints + mixture.panels(), part);
             mixture.close();
         }
         problems.close();
@@ -141,8 +147,8 @@ DeviceLayer place(const kernels::Stgcn& kernels, const FoldedLayer& from, std::u
     return layer;
 }
 
-/// How many numbers a pass needs. Activations go from `x` through `y` (graph) to `x_next` (temporal), each of `activation`
-/// numbers; `spread` holds gathered panels, then points, and `products` the points multiplied.
+/// How many numbers a pass needs. Activations go from `x`, with panels of mixed joints behind the joints' own, through `y`
+/// (graph) to `x_next` (temporal), each of `activation` numbers; `spread` holds points and `products` the points multiplied.
 struct Sizes {
     std::size_t activation = 0, residual = 0, spread = 0, products = 0;
 
@@ -193,7 +199,10 @@ struct Recogniser::Network {
 
     Panels view(const Buffer<float>& memory, std::uint32_t count, std::size_t rows,
                 std::uint32_t width) const {
-        return {memory.memory(), count, kernels.rows(rows), kernels.pitch(width)};
+        const Panels panels{memory.memory(), count, kernels.rows(rows), kernels.pitch(width)};
+        if (std::size_t{count} * panels.rows * panels.pitch > memory.size())
+            throw Error("panels outgrow their memory");
+        return panels;
     }
     void done(std::size_t layer, Step step) const {
         if (probe) probe(layer, step);
@@ -231,10 +240,9 @@ Sizes Recogniser::Network::sizes(std::uint32_t sequences, std::uint32_t frames) 
         const std::size_t tiles =
             kernels.rows(std::size_t{joints} * sequences * ((shorter + points.tile - 1) / points.tile));
         const std::size_t narrow = kernels.pitch(layer.in), wide = kernels.pitch(layer.out);
-        out.activation =
-            std::max({out.activation, joints * before * std::max(narrow, wide), joints * after * wide});
-        out.spread = std::max({out.spread, layer.mixture.count * before * narrow, joints * after * narrow,
-                               points.points_in * tiles * wide});
+        out.activation = std::max({out.activation, (joints + layer.mixture.count) * before * narrow,
+                                   joints * before * wide, joints * after * wide});
+        out.spread = std::max({out.spread, joints * after * narrow, points.points_in * tiles * wide});
         out.products = std::max(out.products, points.points_out * tiles * wide);
         if (layer.residual_convolution) out.residual = std::max(out.residual, joints * after * wide);
         frames = shorter;
@@ -265,8 +273,8 @@ void Recogniser::Network::run_residual(std::size_t index, std::uint32_t sequence
     const std::size_t rows = std::size_t{sequences} * kernels::strided(frames, layer.stride);
     const auto stepped = view(space.spread, joints, rows, layer.in);
     kernels.gather(view(space.x, joints, std::size_t{sequences} * frames, layer.in), layer.stepped, stepped,
-                   sequences, frames, layer.stride);
-    kernels.multiply(stepped, layer.residual_weight, layer.residual, nullptr,
+                   0, sequences, frames, layer.stride);
+    kernels.multiply(stepped, layer.residual_weight, layer.residual,
                      view(space.residual, joints, rows, layer.out), rows);
     done(index, Step::residual);
 }
@@ -279,18 +287,18 @@ void Recogniser::Network::run_layer(std::size_t index, std::uint32_t sequences, 
     const std::size_t tiles = std::size_t{joints} * sequences * ((after + filter.tile - 1) / filter.tile);
     if (layer.residual_convolution) run_residual(index, sequences, frames);
 
-    const auto x = view(space.x, joints, rows, layer.in), y = view(space.y, joints, rows, layer.out);
-    const auto panels = view(space.spread, layer.mixture.count, rows, layer.in);
-    kernels.gather(x, layer.mixture, panels, sequences, frames, 1);
+    const auto x = view(space.x, joints + layer.mixture.count, rows, layer.in),
+               y = view(space.y, joints, rows, layer.out);
+    kernels.gather(x, layer.mixture, x, joints, sequences, frames, 1);
     done(index, Step::gather);
-    kernels.multiply(panels, layer.graph_weight, layer.graph, &layer.graph_bias, y, rows);
+    kernels.multiply_graph(x, layer.graph_weight, layer.graph, layer.graph_bias, y, rows);
     done(index, Step::graph);
 
     const auto points = view(space.spread, filter.points_in, tiles, layer.out);
     const auto products = view(space.products, filter.points_out, tiles, layer.out);
     kernels.split(y, points, sequences, frames, layer.stride);
     done(index, Step::split);
-    kernels.multiply(points, layer.temporal_weight, layer.temporal, nullptr, products, tiles);
+    kernels.multiply(points, layer.temporal_weight, layer.temporal, products, tiles);
     done(index, Step::temporal);
     const auto residual =
         view(layer.residual_convolution ? space.residual : space.x, joints, rows_after, layer.out);

@@ -7,6 +7,8 @@
 namespace actformer::kernels {
 namespace {
 
+constexpr std::size_t elementwise_group = 64;  // work-items
+
 std::size_t round_up(std::size_t value, std::size_t step) {
     return (value + step - 1) / step * step;
 }
@@ -67,19 +69,30 @@ std::vector<double> filter_points(std::span<const double, 9> taps, std::uint32_t
 
 Stgcn::Stgcn(Device& device, const Tiles& tiles) : device_(&device), tiles_(tiles) {
     const auto vec = fmt::format("-DVEC={}", tiles.vec);
-    const auto product =
-        fmt::format("{} -DTILE_ROWS={} -DTILE_VECTORS={} -DITEM_TILES={} -DCOLUMNS_FIRST={}", vec, tiles.rows,
-                    tiles.vectors, tiles.item_tiles, tiles.columns_first ? 1 : 0);
     enter_ = vector_kernel(device, "graph", "enter", vec);
     gather_ = vector_kernel(device, "graph", "gather", vec);
     pool_ = vector_kernel(device, "graph", "pool", vec);
     classify_ = vector_kernel(device, "graph", "classify", vec);
-    multiply_ = vector_kernel(device, "multiply", "multiply", product);
-    multiply_bias_ = vector_kernel(device, "multiply", "multiply", product + " -DBIAS_RELU");
-    split_[0] = vector_kernel(device, "temporal", "split", vec);
-    split_[1] = vector_kernel(device, "temporal", "split_strided", vec);
-    join_[0] = vector_kernel(device, "temporal", "join", vec);
-    join_[1] = vector_kernel(device, "temporal", "join_strided", vec);
+    split_ = vector_kernel(device, "temporal", "split", vec);
+    join_ = vector_kernel(device, "temporal", "join", vec);
+}
+
+cl::Kernel Stgcn::product(bool graph, std::uint32_t a_pitch, std::uint32_t out_pitch) {
+    auto& kernel = products_[{graph ? 1U : 0U, a_pitch, out_pitch}];
+    if (!kernel())
+        kernel = vector_kernel(
+            *device_, "multiply", "multiply",
+            fmt::format(
+                "-DVEC={} -DTILE_ROWS={} -DTILE_VECTORS={} -DITEM_TILES={} -DCOLUMNS_FIRST={} -DA_PITCH={} "
+                "-DOUT_PITCH={}{}",
+                tiles_.vec, tiles_.rows, tiles_.vectors, tiles_.item_tiles, tiles_.columns_first ? 1 : 0,
+                a_pitch, out_pitch, graph ? " -DGRAPH" : ""));
+    return kernel;
+}
+
+/// Work-items along channels: one takes them all where columns do not come first.
+std::size_t Stgcn::channel_items(std::uint32_t pitch) const {
+    return tiles_.columns_first ? pitch / tiles_.vec : 1;
 }
 
 std::uint32_t Stgcn::pitch(std::uint32_t channels) const {
@@ -109,41 +122,52 @@ void Stgcn::enter(const cl::Buffer& motion, const Buffer<float>& scale, const Bu
            begin, sequences, channels, frames, to.count, to.rows, to.pitch);
 }
 
-void Stgcn::gather(const Panels& from, const Mixture& mixture, const Panels& to, std::uint32_t sequences,
-                   std::uint32_t frames, std::uint32_t stride) {
+void Stgcn::gather(const Panels& from, const Mixture& mixture, const Panels& to, std::uint32_t behind,
+                   std::uint32_t sequences, std::uint32_t frames, std::uint32_t stride) {
     const auto left = strided(frames, stride);
-    launch(*device_, gather_, {std::size_t{sequences} * left * (to.pitch / tiles_.vec), mixture.count},
-           from.memory, mixture.first, mixture.source, mixture.share, to.memory, sequences, frames, left,
-           stride, from.rows, to.rows, to.pitch, mixture.count);
+    launch(*device_, gather_, {channel_items(to.pitch), std::size_t{sequences} * left, mixture.count},
+           elementwise_group, from.memory, mixture.first, mixture.source, mixture.share, to.memory, sequences,
+           frames, left, stride, from.rows, to.rows, to.pitch, mixture.count, behind);
 }
 
-void Stgcn::multiply(const Panels& from, const PackedWeights& weights, const Problems& problems,
-                     const Buffer<float>* bias, const Panels& to, std::size_t rows_used) {
+void Stgcn::multiply(cl::Kernel kernel, const Panels& from, const PackedWeights& weights,
+                     const Problems& problems, const Buffer<float>& bias, const Panels& to,
+                     std::size_t rows_used) {
     const auto tiles = rows(rows_used) / tiles_.rows;
     const std::size_t items = (tiles + tiles_.item_tiles - 1) / tiles_.item_tiles,
                       columns = weights.column_blocks;
     const auto range = tiles_.columns_first ? std::array<std::size_t, 3>{columns, items, problems.count}
                                             : std::array<std::size_t, 3>{items, columns, problems.count};
-    launch(*device_, bias ? multiply_bias_ : multiply_, range, tiles_.group, from.memory, weights.values,
-           problems.first, problems.segments, bias ? *bias : weights.values, to.memory, tiles,
-           weights.column_blocks, problems.count, weights.depth, from.rows, from.pitch, to.rows, to.pitch);
+    launch(*device_, kernel, range, tiles_.group, from.memory, weights.values, problems.first,
+           problems.segments, problems.scale, bias, to.memory, tiles, weights.column_blocks, problems.count,
+           weights.depth, from.rows, to.rows);
+}
+
+void Stgcn::multiply(const Panels& from, const PackedWeights& weights, const Problems& problems,
+                     const Panels& to, std::size_t rows_used) {
+    multiply(product(false, from.pitch, to.pitch), from, weights, problems, problems.scale, to, rows_used);
+}
+
+void Stgcn::multiply_graph(const Panels& from, const PackedWeights& weights, const Problems& problems,
+                           const Buffer<float>& bias, const Panels& to, std::size_t rows_used) {
+    multiply(product(true, from.pitch, to.pitch), from, weights, problems, bias, to, rows_used);
 }
 
 void Stgcn::split(const Panels& from, const Panels& to, std::uint32_t sequences, std::uint32_t frames,
                   std::uint32_t stride) {
     const auto tile = filtering(stride).tile, tiles = (strided(frames, stride) + tile - 1) / tile;
     const auto strips = from.count * sequences;
-    launch(*device_, split_[stride - 1], {to.pitch / tiles_.vec, std::size_t{strips} * tiles}, from.memory,
-           to.memory, sequences, frames, tiles, strips, from.rows, to.rows, to.pitch);
+    launch(*device_, split_, {channel_items(to.pitch), std::size_t{strips} * tiles, 1}, elementwise_group,
+           from.memory, to.memory, stride, sequences, frames, tiles, strips, from.rows, to.rows, to.pitch);
 }
 
 void Stgcn::join(const Panels& from, const Buffer<float>& bias, const Panels* residual, const Panels& to,
                  std::uint32_t sequences, std::uint32_t frames, std::uint32_t stride) {
     const auto tile = filtering(stride).tile, tiles = (frames + tile - 1) / tile,
                strips = to.count * sequences;
-    launch(*device_, join_[stride - 1], {to.pitch / tiles_.vec, std::size_t{strips} * tiles}, from.memory,
-           bias, residual ? residual->memory : bias.memory(), to.memory, residual ? 1U : 0U, sequences,
-           frames, tiles, strips, to.rows, from.rows, to.pitch);
+    launch(*device_, join_, {channel_items(to.pitch), std::size_t{strips} * tiles, 1}, elementwise_group,
+           from.memory, bias, residual ? residual->memory : bias.memory(), to.memory, residual ? 1U : 0U,
+           stride, sequences, frames, tiles, strips, to.rows, from.rows, to.pitch);
 }
 
 void Stgcn::pool(const Panels& from, const Buffer<float>& features, std::uint32_t begin,

@@ -4,7 +4,9 @@
 // with zeros to a multiple of Tiles::block() and rows to a multiple of Tiles::rows, so that every step runs in whole vectors.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -25,9 +27,11 @@ struct PackedWeights {
     std::uint32_t depth = 0, column_blocks = 0;  ///< of every set
 };
 
-/// Which panels meet which weights: problem p sums panel * set over segments first[p] .. first[p + 1] - 1.
+/// Which panels meet which weights: problem p sums panel * set over segments first[p] .. first[p + 1] - 1. In graph
+/// convolutions what is summed by a segment's end is multiplied by its scale.
 struct Problems {
     Buffer<std::uint32_t> first, segments;  ///< (count + 1), (segments, 2): panel, set
+    Buffer<float> scale;                    ///< (segments)
     std::uint32_t count = 0;
 };
 
@@ -75,13 +79,17 @@ class Stgcn {
                const Panels& to, std::uint32_t begin, std::uint32_t sequences, std::uint32_t channels,
                std::uint32_t frames);
 
-    /// Mixes joints; keeps every stride-th of `frames` frames.
-    void gather(const Panels& from, const Mixture& mixture, const Panels& to, std::uint32_t sequences,
-                std::uint32_t frames, std::uint32_t stride);
+    /// Mixes joints to the panels of `to` behind its first `behind`; keeps every stride-th of `frames` frames.
+    void gather(const Panels& from, const Mixture& mixture, const Panels& to, std::uint32_t behind,
+                std::uint32_t sequences, std::uint32_t frames, std::uint32_t stride);
 
-    /// The packed multiply over the first `rows` rows. With a bias (problems, pitch): it is added and negatives become 0.
+    /// The packed multiply over the first `rows` rows.
     void multiply(const Panels& from, const PackedWeights& weights, const Problems& problems,
-                  const Buffer<float>* bias, const Panels& to, std::size_t rows);
+                  const Panels& to, std::size_t rows);
+
+    /// The same with the segments' scales; then the bias (problems, pitch) is added and negatives become 0.
+    void multiply_graph(const Panels& from, const PackedWeights& weights, const Problems& problems,
+                        const Buffer<float>& bias, const Panels& to, std::size_t rows);
 
     /// Frames to the points of the temporal convolution.
     void split(const Panels& from, const Panels& to, std::uint32_t sequences, std::uint32_t frames,
@@ -102,9 +110,15 @@ class Stgcn {
                   std::uint32_t classes);
 
   private:
+    cl::Kernel product(bool graph, std::uint32_t a_pitch, std::uint32_t out_pitch);
+    void multiply(cl::Kernel kernel, const Panels& from, const PackedWeights& weights,
+                  const Problems& problems, const Buffer<float>& bias, const Panels& to, std::size_t rows);
+    std::size_t channel_items(std::uint32_t pitch) const;
+
     Device* device_;
     Tiles tiles_;
-    cl::Kernel enter_, gather_, pool_, classify_, multiply_, multiply_bias_, split_[2], join_[2];
+    cl::Kernel enter_, gather_, pool_, classify_, split_, join_;
+    std::map<std::array<std::uint32_t, 3>, cl::Kernel> products_;  ///< by (graph, pitch of a, pitch of out)
 };
 
 }  // namespace actformer::kernels

@@ -25,18 +25,21 @@ kernel void enter(global const float* motion, global const float* scale, global 
     for (uint c = channels; c < pitch; ++c) to[c] = 0;
 }
 
-// One work-item a (vector of channels and row, panel). Frame t of the result is frame t * stride of the sources.
+// A work-item takes a (row, panel), and of its channels every get_global_size(0)-th vector. Panels are gathered from the
+// same memory that they go to, behind its first `behind` panels. Frame t of the result is frame t * stride of the sources.
 kernel void gather(global const float* panels, global const uint* first, global const uint* source,
                    global const float* share, global float* gathered, uint sequences, uint frames_in, uint frames,
-                   uint stride, uint rows_in, uint rows, uint pitch, uint panel_count) {
-    const uint vectors = pitch / VEC, row = get_global_id(0) / vectors, at = get_global_id(0) % vectors;
-    const uint panel = get_global_id(1);
+                   uint stride, uint rows_in, uint rows, uint pitch, uint panel_count, uint behind) {
+    const uint row = get_global_id(1), panel = get_global_id(2);
     if (row >= sequences * frames || panel >= panel_count) return;
-    const uint from = row / frames * frames_in + row % frames * stride;
-    VECTOR sum = 0;
-    for (uint s = first[panel]; s < first[panel + 1]; ++s)
-        sum += share[s] * LOAD(at, panels + ((size_t)source[s] * rows_in + from) * pitch);
-    STORE(sum, at, gathered + ((size_t)panel * rows + row) * pitch);
+    const uint from = stride == 1 ? row : row / frames * frames_in + row % frames * stride;
+    const uint begin = first[panel], end = first[panel + 1];
+    for (uint at = get_global_id(0) * VEC; at < pitch; at += get_global_size(0) * VEC) {
+        VECTOR sum = 0;
+        for (uint s = begin; s < end; ++s)
+            sum += share[s] * LOAD(0, panels + ((size_t)source[s] * rows_in + from) * pitch + at);
+        STORE(sum, 0, gathered + ((size_t)(behind + panel) * rows + row) * pitch + at);
+    }
 }
 
 // One work-item a (channel, sequence): the mean over frames and joints.

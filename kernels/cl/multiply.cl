@@ -6,12 +6,13 @@
 // one problem for each point of its minimal filtering.
 //
 // Data layout                                          BLOCK = TILE_VECTORS * VEC columns
-//   a        (panels, a_rows, a_pitch)      float      row by row, `depth` numbers of each used
+//   a        (panels, a_rows, A_PITCH)      float      row by row, `depth` numbers of each used
 //   w        (sets, columns / BLOCK, depth, BLOCK)     so that one work-item reads its weights in one stream
 //   first    (problems + 1)                 uint       segments of a problem: first[problem] .. first[problem + 1] - 1
 //   segment  (segments)                     uint2      panel, set
-//   bias     (problems, out_pitch)          float      only with BIAS_RELU: added before negatives become 0
-//   out      (problems, out_rows, out_pitch) float
+//   scale    (segments)                     float      only with GRAPH: what is summed by the segment's end is multiplied
+//   bias     (problems, OUT_PITCH)          float      only with GRAPH: added last, and negatives become 0
+//   out      (problems, out_rows, OUT_PITCH) float
 // Rows are padded to whole tiles: those beyond the last hold finite numbers of no meaning.
 //
 //            TILE_VECTORS vectors
@@ -23,14 +24,15 @@
 //      +--+ +------+------+        COLUMNS_FIRST numbers work-items along columns first (neighbours then share rows, which
 //                                  GPUs read once), else along rows.
 //
-// Macros (vectors.cl stands before this file): VEC, TILE_ROWS, TILE_VECTORS, ITEM_TILES, COLUMNS_FIRST, BIAS_RELU
+// Macros (vectors.cl stands before this file): VEC, TILE_ROWS, TILE_VECTORS, ITEM_TILES, COLUMNS_FIRST, GRAPH, A_PITCH,
+// OUT_PITCH. The pitches are macros so that a row's address is a constant away from the next one's.
 
 #define BLOCK (TILE_VECTORS * VEC)
 
 kernel void multiply(global const float* restrict a, global const float* restrict w, global const uint* restrict first,
-                     global const uint2* restrict segment, global const float* restrict bias,
-                     global float* restrict out, uint tiles, uint columns, uint problems, uint depth, uint a_rows,
-                     uint a_pitch, uint out_rows, uint out_pitch) {
+                     global const uint2* restrict segment, global const float* restrict scale,
+                     global const float* restrict bias, global float* restrict out, uint tiles, uint columns,
+                     uint problems, uint depth, uint a_rows, uint out_rows) {
     const uint column = get_global_id(COLUMNS_FIRST ? 0 : 1), problem = get_global_id(2);
     const uint begin = get_global_id(COLUMNS_FIRST ? 1 : 0) * ITEM_TILES;
     if (column >= columns || begin >= tiles || problem >= problems) return;
@@ -40,37 +42,42 @@ kernel void multiply(global const float* restrict a, global const float* restric
 #pragma unroll
         for (int r = 0; r < TILE_ROWS; ++r)
 #pragma unroll
-            for (int v = 0; v < TILE_VECTORS; ++v)
-#ifdef BIAS_RELU
-                sum[r][v] = LOAD(column * TILE_VECTORS + v, bias + problem * out_pitch);
-#else
-                sum[r][v] = 0;
-#endif
+            for (int v = 0; v < TILE_VECTORS; ++v) sum[r][v] = 0;
+
         for (uint s = first[problem]; s < first[problem + 1]; ++s) {
-            global const float* restrict rows = a + ((size_t)segment[s].x * a_rows + tile * TILE_ROWS) * a_pitch;
+            global const float* restrict rows = a + ((size_t)segment[s].x * a_rows + tile * TILE_ROWS) * A_PITCH;
             global const float* restrict weights = w + ((size_t)segment[s].y * columns + column) * depth * BLOCK;
-            for (uint k = 0; k < depth; ++k) {
+            for (size_t k = 0; k < depth; ++k) {
                 VECTOR weight[TILE_VECTORS];
 #pragma unroll
                 for (int v = 0; v < TILE_VECTORS; ++v) weight[v] = LOAD(v, weights + k * BLOCK);
 #pragma unroll
                 for (int r = 0; r < TILE_ROWS; ++r) {
-                    const VECTOR x = rows[r * a_pitch + k];
+                    const VECTOR x = rows[k + r * A_PITCH];
 #pragma unroll
                     for (int v = 0; v < TILE_VECTORS; ++v) sum[r][v] = fma(x, weight[v], sum[r][v]);
                 }
             }
-        }
-        global float* to = out + ((size_t)problem * out_rows + tile * TILE_ROWS) * out_pitch + column * BLOCK;
+#ifdef GRAPH
 #pragma unroll
-        for (int r = 0; r < TILE_ROWS; ++r)
+            for (int r = 0; r < TILE_ROWS; ++r)
 #pragma unroll
-            for (int v = 0; v < TILE_VECTORS; ++v) {
-#ifdef BIAS_RELU
-                STORE(fmax(sum[r][v], 0.0f), v, to + r * out_pitch);
-#else
-                STORE(sum[r][v], v, to + r * out_pitch);
+                for (int v = 0; v < TILE_VECTORS; ++v) sum[r][v] *= scale[s];
 #endif
+        }
+        global float* to = out + ((size_t)problem * out_rows + tile * TILE_ROWS) * OUT_PITCH + column * BLOCK;
+#pragma unroll
+        for (int v = 0; v < TILE_VECTORS; ++v) {
+#ifdef GRAPH
+            const VECTOR offset = LOAD(column * TILE_VECTORS + v, bias + problem * OUT_PITCH);
+#endif
+#pragma unroll
+            for (int r = 0; r < TILE_ROWS; ++r) {
+#ifdef GRAPH
+                sum[r][v] = fmax(sum[r][v] + offset, 0.0f);
+#endif
+                STORE(sum[r][v], v, to + r * OUT_PITCH);
             }
+        }
     }
 }

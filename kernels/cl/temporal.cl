@@ -73,17 +73,8 @@ void join8(const VECTOR* m, VECTOR* y, int results) {
     }
 }
 
-// One work-item a (vector of channels, tile).
-kernel void split(global const float* restrict frames, global float* restrict points, uint sequences, uint length,
-                  uint tiles, uint strips, uint rows, uint tile_rows, uint pitch) {
-    const uint at = get_global_id(0) * VEC, row = get_global_id(1), strip = row / tiles;
-    if (at >= pitch || strip >= strips) return;
-    global const float* from =
-        frames + ((size_t)(strip / sequences) * rows + strip % sequences * length) * pitch + at;
-    global float* to = points + (size_t)row * pitch + at;
-    const size_t plane = (size_t)tile_rows * pitch;
-    const int start = (int)(row % tiles) * 18 - 4;
-
+// A tile of 18 results from the frames it needs, `start` being the first of them.
+void split_tile(global const float* from, global float* to, int start, uint length, uint pitch, size_t plane) {
     VECTOR at5[5][8];
 #pragma unroll
     for (int m = 0; m < 8; ++m) {
@@ -103,19 +94,29 @@ kernel void split(global const float* restrict frames, global float* restrict po
     }
 }
 
-// One work-item a (vector of channels, tile). Adds the bias and, where `add` is 1, the residual (laid out as the frames);
-// negatives become 0.
-kernel void join(global const float* restrict points, global const float* restrict bias,
-                 global const float* restrict residual, global float* restrict frames, uint add, uint sequences,
-                 uint length, uint tiles, uint strips, uint rows, uint tile_rows, uint pitch) {
-    const uint at = get_global_id(0) * VEC, row = get_global_id(1), strip = row / tiles;
-    if (at >= pitch || strip >= strips) return;
-    global const float* from = points + (size_t)row * pitch + at;
-    const size_t base = ((size_t)(strip / sequences) * rows + strip % sequences * length) * pitch + at;
-    const size_t plane = (size_t)tile_rows * pitch;
-    const uint start = row % tiles * 18;
-    const VECTOR offset = LOAD(0, bias + at);
+// The same for a tile of 4 results at stride 2.
+void split_strided_tile(global const float* from, global float* to, int start, uint length, uint pitch, size_t plane) {
+#pragma unroll
+    for (int phase = 0; phase < 2; ++phase) {
+        VECTOR d[8], v[8];
+#pragma unroll
+        for (int q = 0; q < 8; ++q) d[q] = frame_at(from, start + 2 * q + phase, length, pitch);
+        split8(d, v);
+#pragma unroll
+        for (int a = 0; a < 8; ++a) STORE(v[a], 0, to + (phase * 8 + a) * plane);
+    }
+}
 
+// Frame t of a sequence: the sum with the bias and the residual, if any; negatives become 0.
+void finish(VECTOR y, VECTOR bias, global const float* residual, global float* to, uint add) {
+    y += bias;
+    if (add) y += LOAD(0, residual);
+    STORE(fmax(y, 0.0f), 0, to);
+}
+
+// Results from `start` to the sequence's end, 18 at most.
+void join_tile(global const float* from, VECTOR bias, global const float* residual, global float* to, uint add, uint start,
+               uint length, uint pitch, size_t plane) {
     VECTOR groups[6][5];
 #pragma unroll
     for (int b = 0; b < 5; ++b) {
@@ -134,56 +135,62 @@ kernel void join(global const float* restrict points, global const float* restri
         for (int j = 0; j < 3; ++j) {
             const uint t = start + 3 * g + j;
             if (t >= length) return;
-            VECTOR out = y[j] + offset;
-            if (add) out += LOAD(0, residual + base + t * pitch);
-            STORE(fmax(out, 0.0f), 0, frames + base + t * pitch);
+            finish(y[j], bias, residual + t * pitch, to + t * pitch, add);
         }
     }
 }
 
-// One work-item a (vector of channels, tile).
-kernel void split_strided(global const float* restrict frames, global float* restrict points, uint sequences, uint length,
-                          uint tiles, uint strips, uint rows, uint tile_rows, uint pitch) {
-    const uint at = get_global_id(0) * VEC, row = get_global_id(1), strip = row / tiles;
-    if (at >= pitch || strip >= strips) return;
-    global const float* from =
-        frames + ((size_t)(strip / sequences) * rows + strip % sequences * length) * pitch + at;
-    global float* to = points + (size_t)row * pitch + at;
-    const size_t plane = (size_t)tile_rows * pitch;
-    const int start = (int)(row % tiles) * 8 - 4;
-
-#pragma unroll
-    for (int phase = 0; phase < 2; ++phase) {
-        VECTOR d[8], v[8];
-#pragma unroll
-        for (int q = 0; q < 8; ++q) d[q] = frame_at(from, start + 2 * q + phase, length, pitch);
-        split8(d, v);
-#pragma unroll
-        for (int a = 0; a < 8; ++a) STORE(v[a], 0, to + (phase * 8 + a) * plane);
-    }
-}
-
-// One work-item a (vector of channels, tile); `points` holds the 8 sums over both phases, `length` counts the results.
-kernel void join_strided(global const float* restrict points, global const float* restrict bias,
-                         global const float* restrict residual, global float* restrict frames, uint add,
-                         uint sequences, uint length, uint tiles, uint strips, uint rows, uint tile_rows, uint pitch) {
-    const uint at = get_global_id(0) * VEC, row = get_global_id(1), strip = row / tiles;
-    if (at >= pitch || strip >= strips) return;
-    global const float* from = points + (size_t)row * pitch + at;
-    const size_t base = ((size_t)(strip / sequences) * rows + strip % sequences * length) * pitch + at;
-    const size_t plane = (size_t)tile_rows * pitch;
-    const VECTOR offset = LOAD(0, bias + at);
-
+// The same for 4 results at stride 2, whose points are the sums over both phases.
+void join_strided_tile(global const float* from, VECTOR bias, global const float* residual, global float* to, uint add,
+                       uint start, uint length, uint pitch, size_t plane) {
     VECTOR m[8], y[4];
 #pragma unroll
     for (int a = 0; a < 8; ++a) m[a] = LOAD(0, from + a * plane);
     join8(m, y, 4);
 #pragma unroll
     for (int j = 0; j < 4; ++j) {
-        const uint t = row % tiles * 4 + j;
+        const uint t = start + j;
         if (t >= length) return;
-        VECTOR out = y[j] + offset;
-        if (add) out += LOAD(0, residual + base + t * pitch);
-        STORE(fmax(out, 0.0f), 0, frames + base + t * pitch);
+        finish(y[j], bias, residual + t * pitch, to + t * pitch, add);
+    }
+}
+
+// A work-item takes a tile, and of its channels every get_global_size(0)-th vector. `length` counts frames here and
+// results in `join`. With `stride` 2 both do so at a stride.
+kernel void split(global const float* restrict frames, global float* restrict points, uint stride, uint sequences,
+                  uint length, uint tiles, uint strips, uint rows, uint tile_rows, uint pitch) {
+    const uint row = get_global_id(1), strip = row / tiles;
+    if (strip >= strips) return;
+    const size_t first = (size_t)(strip / sequences) * rows + strip % sequences * length;
+    const size_t plane = (size_t)tile_rows * pitch;
+    const int start = (int)(row % tiles) * (stride == 1 ? 18 : 8) - 4;
+    for (uint at = get_global_id(0) * VEC; at < pitch; at += get_global_size(0) * VEC) {
+        global const float* from = frames + first * pitch + at;
+        global float* to = points + (size_t)row * pitch + at;
+        if (stride == 1)
+            split_tile(from, to, start, length, pitch, plane);
+        else
+            split_strided_tile(from, to, start, length, pitch, plane);
+    }
+}
+
+// A work-item as in `split`. Adds the bias and, where `add` is 1, the residual, which is laid out as the frames; negatives
+// become 0.
+kernel void join(global const float* restrict points, global const float* restrict bias,
+                 global const float* restrict residual, global float* restrict frames, uint add, uint stride,
+                 uint sequences, uint length, uint tiles, uint strips, uint rows, uint tile_rows, uint pitch) {
+    const uint row = get_global_id(1), strip = row / tiles;
+    if (strip >= strips) return;
+    const size_t first = (size_t)(strip / sequences) * rows + strip % sequences * length;
+    const size_t plane = (size_t)tile_rows * pitch;
+    const uint start = row % tiles * (stride == 1 ? 18 : 4);
+    for (uint at = get_global_id(0) * VEC; at < pitch; at += get_global_size(0) * VEC) {
+        global const float* from = points + (size_t)row * pitch + at;
+        global const float* other = add ? residual + first * pitch + at : bias;
+        global float* to = frames + first * pitch + at;
+        if (stride == 1)
+            join_tile(from, LOAD(0, bias + at), other, to, add, start, length, pitch, plane);
+        else
+            join_strided_tile(from, LOAD(0, bias + at), other, to, add, start, length, pitch, plane);
     }
 }
