@@ -14,6 +14,8 @@ void add_render(CLI::App& app);
 void add_bench(CLI::App& app);
 
 /// Ends a command's --help with lines that can be typed as they stand.
-inline void examples(CLI::App* command, const std::string& lines) { command->footer("Examples:\n" + lines); }
+inline void examples(CLI::App* command, const std::string& lines) {
+    command->footer("Examples:\n" + lines);
+}
 
 }  // namespace actformer::cli

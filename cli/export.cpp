@@ -32,15 +32,16 @@ void run(const Options& options) {
     }
     writer.finish();
     progress.clear();
-    fmt::print("{}: {} of split {}, each ({}, {}, frames)\n", options.out, counted(clips.size(), "clip"), options.split,
-               dataset.header().persons * 3, dataset.header().topology.joints());
+    fmt::print("{}: {} of split {}, each ({}, {}, frames)\n", options.out, counted(clips.size(), "clip"),
+               options.split, dataset.header().persons * 3, dataset.header().topology.joints());
 }
 
 }  // namespace
 
 void add_export(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    auto* command = app.add_subcommand("export", "Write a dataset in the public layout: one (P*C, K, T) array a clip");
+    auto* command =
+        app.add_subcommand("export", "Write a dataset in the public layout: one (P*C, K, T) array a clip");
     command->add_option("dataset", options->dataset, "Dataset folder")->required()->type_name("DATASET");
     command->add_option("-o,--out", options->out, "HDF5 file to make")->required()->type_name("FILE.h5");
     command->add_option("--split", options->split, "As in xsub/train (default: all clips)");

@@ -13,7 +13,7 @@ namespace {
 
 std::string left_out_text(const std::string& kind) {
     if (kind == "broken") return "broken";
-    if (kind == "dropped") return "with too few persons for their class";
+    if (kind == "dropped") return "that no dataset here is for (too few persons, or another class)";
     if (kind == "missing") return "in the missing list";
     return "of a name that came before";
 }
@@ -23,11 +23,13 @@ void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
         fmt::print("{} is complete already: nothing to do\n", options.out);
     } else {
         if (s.resumed_files) fmt::print("went on behind {}\n", counted(s.resumed_files, "finished file"));
-        fmt::print("read {} ({}) in {}\n", counted(s.files, "file"), bytes(s.text_bytes), duration(s.seconds.wall));
+        fmt::print("read {} ({}) in {}\n", counted(s.files, "file"), bytes(s.text_bytes),
+                   duration(s.seconds.wall));
     }
     for (const auto& d : s.datasets)
-        fmt::print("  {}: {} of {} in {}, {}, {}\n", d.folder, counted(d.clips, "clip"), counted(d.classes, "class"),
-                   counted(d.shards, "shard"), counted(d.frames, "frame"), bytes(d.bytes));
+        fmt::print("  {}: {} of {} in {}, {}, {}\n", d.folder, counted(d.clips, "clip"),
+                   counted(d.classes, "class"), counted(d.shards, "shard"), counted(d.frames, "frame"),
+                   bytes(d.bytes));
     for (const auto& [kind, count] : s.left_out)
         fmt::print("  left out: {} {}\n", counted(count, "file"), left_out_text(kind));
     for (const auto& line : s.first_rejections) fmt::print("    {}\n", line);
@@ -35,12 +37,9 @@ void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
 }
 
 void print_json(const ingest::IngestSummary& s, const IngestOptions& options) {
-    nlohmann::ordered_json json{{"out", options.out},
-                                {"complete_before", s.was_complete},
-                                {"files", s.files},
-                                {"resumed_files", s.resumed_files},
-                                {"text_bytes", s.text_bytes},
-                                {"left_out", s.left_out},
+    nlohmann::ordered_json json{{"out", options.out},         {"complete_before", s.was_complete},
+                                {"files", s.files},           {"resumed_files", s.resumed_files},
+                                {"text_bytes", s.text_bytes}, {"left_out", s.left_out},
                                 {"seconds", s.seconds.wall}};
     json["datasets"] = nlohmann::ordered_json::array();
     for (const auto& d : s.datasets)
@@ -56,7 +55,9 @@ void print_json(const ingest::IngestSummary& s, const IngestOptions& options) {
 }  // namespace
 
 void add_ingest_options(CLI::App* command, IngestOptions& options) {
-    command->add_option("raw", options.raw, "Folders, files, .zip or .tar.* archives")->required()->type_name("RAW");
+    command->add_option("raw", options.raw, "Folders, files, .zip or .tar.* archives")
+        ->required()
+        ->type_name("RAW");
     command->add_option("-o,--out", options.out, "Folder to make")->required()->type_name("DIR");
     command->add_option("--device", options.device, "OpenCL device: a number, gpu, cpu, or part of a name");
     command->add_option("--threads", options.threads, "Threads that read and parse (default: all cores)");
@@ -71,7 +72,8 @@ void run_ingest(const IngestOptions& options, const ingest::Format& format, bool
     ingest::IngestRequest request;
     request.raw.assign(options.raw.begin(), options.raw.end());
     request.out = options.out;
-    while (request.out.has_relative_path() && !request.out.has_filename()) request.out = request.out.parent_path();
+    while (request.out.has_relative_path() && !request.out.has_filename())
+        request.out = request.out.parent_path();
     request.missing = std::move(missing);
     request.strict = options.strict;
     request.one_dataset = one_dataset;
@@ -83,7 +85,8 @@ void run_ingest(const IngestOptions& options, const ingest::Format& format, bool
 }
 
 void add_ingest(CLI::App& app) {
-    auto* command = app.add_subcommand("ingest", "Clean raw motion capture and write it as checksummed HDF5 shards");
+    auto* command =
+        app.add_subcommand("ingest", "Clean raw motion capture and write it as checksummed HDF5 shards");
     command->require_subcommand(1);
     add_ingest_ntu(*command);
     add_ingest_bvh(*command);

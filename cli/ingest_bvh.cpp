@@ -47,10 +47,10 @@ void add_bvh_options(CLI::App* command, Options& options) {
     command
         ->add_option("--classes", bvh.classes, "Actions in the order of their labels (default: all, sorted)")
         ->delimiter(',')
+        ->allow_extra_args(false)  // or it would take the RAW that may follow
         ->type_name("A,B,...");
     command->add_option("--split", options.splits, "A split by the names' fields; may be given again")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(false)
         ->type_name("NAME=FIELD:VALUE,...");
 }
 

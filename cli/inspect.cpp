@@ -47,11 +47,13 @@ void print_text(const ingest::Dataset& dataset, bool list_classes) {
     std::uint64_t size = 0;
     for (const auto& shard : dataset.shards()) size += shard.bytes;
     fmt::print("{} ({})\n", dataset.folder().string(), header.name);
-    fmt::print("  {} of {}, {} with none; {} joints, {}, {:g} frames a second\n", counted(dataset.clips().size(), "clip"),
-               counted(counts.size(), "class"), std::count(counts.begin(), counts.end(), 0U), header.topology.joints(),
+    fmt::print("  {} of {}, {} with none; {} joints, {}, {:g} frames a second\n",
+               counted(dataset.clips().size(), "clip"), counted(counts.size(), "class"),
+               std::count(counts.begin(), counts.end(), 0U), header.topology.joints(),
                counted(header.persons, "person"), header.fps);
-    fmt::print("  {} ({} to {} a clip, median {}) in {}, {}\n", counted(lengths.total, "frame"), lengths.shortest,
-               lengths.longest, lengths.median, counted(dataset.shards().size(), "shard"), bytes(size));
+    fmt::print("  {} ({} to {} a clip, median {}) in {}, {}\n", counted(lengths.total, "frame"),
+               lengths.shortest, lengths.longest, lengths.median, counted(dataset.shards().size(), "shard"),
+               bytes(size));
     for (const auto& split : header.splits)
         fmt::print("  split {:<14} {}\n", split.name, counted(dataset.split(split.name).size(), "clip"));
     if (list_classes)
@@ -70,8 +72,11 @@ Json to_json(const ingest::Dataset& dataset) {
             {"name", header.name},
             {"source", dataset.fingerprint()},
             {"clips", dataset.clips().size()},
-            {"frames", {{"total", lengths.total}, {"shortest", lengths.shortest}, {"median", lengths.median},
-                        {"longest", lengths.longest}}},
+            {"frames",
+             {{"total", lengths.total},
+              {"shortest", lengths.shortest},
+              {"median", lengths.median},
+              {"longest", lengths.longest}}},
             {"persons", header.persons},
             {"joints", header.topology.names},
             {"parents", header.topology.parents},
@@ -100,7 +105,9 @@ void add_inspect(CLI::App& app) {
     };
     auto options = std::make_shared<Options>();
     auto* command = app.add_subcommand("inspect", "Say what is in a dataset, and check that it is whole");
-    command->add_option("dataset", options->dataset, "Dataset folder, or a folder of them")->required()->type_name("DATASET");
+    command->add_option("dataset", options->dataset, "Dataset folder, or a folder of them")
+        ->required()
+        ->type_name("DATASET");
     command->add_flag("--verify", options->verify, "Read everything and compare every checksum");
     command->add_flag("--classes", options->classes, "List the classes and their clips");
     command->add_flag("--json", options->json, "Print JSON");
@@ -117,7 +124,8 @@ void add_inspect(CLI::App& app) {
                 print_text(dataset, options->classes);
         }
         if (options->json) fmt::print("{}\n", (json.size() == 1 ? json[0] : json).dump(2));
-        if (options->verify && !options->json) fmt::print("verified: every checksum, offset and number is right\n");
+        if (options->verify && !options->json)
+            fmt::print("verified: every checksum, offset and number is right\n");
     });
 }
 

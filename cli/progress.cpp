@@ -4,13 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace actformer::cli {
 
 std::string duration(double seconds) {
     if (seconds < 10) return fmt::format("{:.1f} s", seconds);
-    const auto s = static_cast<std::uint64_t>(seconds + 0.5);
+    const auto s = static_cast<std::uint64_t>(std::llround(seconds));
     if (s < 60) return fmt::format("{} s", s);
     if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
     return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
@@ -24,7 +25,9 @@ Progress::Progress(std::string label, std::string unit, bool quiet)
       start_(Clock::now()),
       last_(start_) {}
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+    clear();
+}
 
 void Progress::update(double fraction, std::uint64_t count) {
     if (quiet_) return;
@@ -40,9 +43,10 @@ void Progress::update(double fraction, std::uint64_t count) {
     const double spent = std::chrono::duration<double>(now - start_).count();
     const double rate = static_cast<double>(count - start_count_) / spent;
     const double gained = fraction - start_fraction_;
-    const auto left = gained > 0 ? duration(spent * (1 - fraction) / gained) + " left" : std::string("starting");
-    const auto text =
-        fmt::format("{:3.0f} %  {} {}  {:.0f}/s  {}", 100 * std::min(fraction, 1.0), count, unit_, rate, left);
+    const auto left =
+        gained > 0 ? duration(spent * (1 - fraction) / gained) + " left" : std::string("starting");
+    const auto text = fmt::format("{:3.0f} %  {} {}  {:.0f}/s  {}", 100 * std::min(fraction, 1.0), count,
+                                  unit_, rate, left);
     if (terminal_) {
         constexpr int width = 28;
         const int full = static_cast<int>(width * std::clamp(fraction, 0.0, 1.0));

@@ -61,7 +61,9 @@ void render(const Options& options) {
 void add_render(CLI::App& app) {
     auto* command = app.add_subcommand("render", "Draw motions: a contact sheet (.png), a .gif or an .mp4");
     auto options = std::make_shared<Options>();
-    command->add_option("INPUT", options->inputs, "Datasets, motions files in the public layout (.h5), or raw .skeleton files")
+    command
+        ->add_option("INPUT", options->inputs,
+                     "Datasets, motions files in the public layout (.h5), or raw .skeleton files")
         ->required();
     command
         ->add_option("-o,--output", options->output,
@@ -71,7 +73,8 @@ void add_render(CLI::App& app) {
         ->allow_extra_args(false);
     command->add_option("--split", options->wanted.split, "Draw from this split of the dataset")
         ->capture_default_str();
-    command->add_option("--class", options->wanted.label, "Draw from this class: its name, or its number from 0");
+    command->add_option("--class", options->wanted.label,
+                        "Draw from this class: its name, or its number from 0");
     command->add_option("--count", options->wanted.count, "Motions of each INPUT, spread over its classes")
         ->check(CLI::Range(1, 400))
         ->capture_default_str();

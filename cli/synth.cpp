@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "ingest/synth/ntu/ntu.hpp"
 #include "kernels/error.hpp"
@@ -59,10 +60,9 @@ void print_summary(const NtuSummary& s, const Arguments& a, double seconds) {
         fmt::print("{}\n", out.dump(2));
         return;
     }
-    fmt::print("{}: {} clips", a.options.folder.string(), s.clips);
-    if (s.written < s.clips) fmt::print(", {} of them there already", s.clips - s.written);
-    fmt::print("; wrote {} frames, {:.1f} MB in {}\n", s.frames, static_cast<double>(s.bytes) / 1e6,
-               duration(seconds));
+    fmt::print("{}: {}", a.options.folder.string(), counted(s.clips, "clip"));
+    if (s.written < s.clips) fmt::print(", {} of them there already", grouped(s.clips - s.written));
+    fmt::print("; wrote {}, {} in {}\n", counted(s.frames, "frame"), bytes(s.bytes), duration(seconds));
 }
 
 void synth_ntu(Arguments& a) {

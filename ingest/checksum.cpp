@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+// Inlined, so that it is compiled for this machine's widest vectors, as the installed library is not.
+#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include "ingest/file.hpp"
@@ -9,26 +11,33 @@
 namespace actformer::ingest {
 namespace {
 
-std::string hex_of(XXH128_hash_t h) { return fmt::format("{:016x}{:016x}", h.high64, h.low64); }
+std::string hex_of(XXH128_hash_t h) {
+    return fmt::format("{:016x}{:016x}", h.high64, h.low64);
+}
 
 }  // namespace
 
 struct Checksum::State {
-    XXH3_state_t* hash = XXH3_createState();
-    ~State() { XXH3_freeState(hash); }
+    XXH3_state_t hash;
 };
 
-Checksum::Checksum() : state_(std::make_unique<State>()) { XXH3_128bits_reset(state_->hash); }
+Checksum::Checksum() : state_(std::make_unique<State>()) {
+    XXH3_128bits_reset(&state_->hash);
+}
 Checksum::~Checksum() = default;
 
 Checksum& Checksum::add(std::string_view bytes) {
-    XXH3_128bits_update(state_->hash, bytes.data(), bytes.size());
+    XXH3_128bits_update(&state_->hash, bytes.data(), bytes.size());
     return *this;
 }
 
-std::string Checksum::hex() const { return hex_of(XXH3_128bits_digest(state_->hash)); }
+std::string Checksum::hex() const {
+    return hex_of(XXH3_128bits_digest(&state_->hash));
+}
 
-std::string checksum(std::string_view bytes) { return hex_of(XXH3_128bits(bytes.data(), bytes.size())); }
+std::string checksum(std::string_view bytes) {
+    return hex_of(XXH3_128bits(bytes.data(), bytes.size()));
+}
 
 std::string checksum_file(const std::filesystem::path& path) {
     Checksum sum;

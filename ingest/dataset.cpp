@@ -15,22 +15,26 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Faults of one shard, each on a line.
-std::vector<std::string> faults_of(const fs::path& path, const ShardEntry& entry, const DatasetHeader& header) {
+std::vector<std::string> faults_of(const fs::path& path, const ShardEntry& entry,
+                                   const DatasetHeader& header) {
     std::error_code error;
     const auto bytes = fs::file_size(path, error);
     if (error) return {fmt::format("{}: missing", path.string())};
     if (bytes != entry.bytes)
         return {fmt::format("{}: {} bytes, not {}: cut short or changed", path.string(), bytes, entry.bytes)};
     if (checksum_file(path) != entry.checksum)
-        return {fmt::format("{}: its checksum differs from dataset.json's: changed or damaged", path.string())};
+        return {
+            fmt::format("{}: its checksum differs from dataset.json's: changed or damaged", path.string())};
     try {
         const auto clips = read_clips(path, header, 0);
         const auto motion = hdf5::Reader(path).read<float>("motion");
         for (const auto& clip : clips) {
             const auto per_frame = header.persons * header.topology.joints() * 3;
             const auto* first = motion.data() + clip.offset * per_frame;
-            if (!std::all_of(first, first + clip.frames * per_frame, [](float v) { return std::isfinite(v); }))
-                return {fmt::format("{}: clip {} holds numbers that are not finite", path.string(), clip.name)};
+            if (!std::all_of(first, first + clip.frames * per_frame,
+                             [](float v) { return std::isfinite(v); }))
+                return {
+                    fmt::format("{}: clip {} holds numbers that are not finite", path.string(), clip.name)};
         }
     } catch (const Error& e) {
         return {e.what()};
@@ -98,13 +102,16 @@ std::vector<float> Dataset::bone_length(std::size_t clip) const {
     return shard_of(which).read_rows("clip/bone_length", clip - first_clip_[which.shard], 1);
 }
 
-std::string Dataset::public_name(std::size_t clip) const { return renumbered(clips_.at(clip).name, clips_[clip].label); }
+std::string Dataset::public_name(std::size_t clip) const {
+    return renumbered(clips_.at(clip).name, clips_[clip].label);
+}
 
 std::vector<std::string> verify_dataset(const fs::path& folder) {
     const auto file = read_dataset_json(folder / "dataset.json");
     std::vector<std::string> faults;
     for (const auto& shard : file.shards)
-        for (auto& fault : faults_of(folder / shard.file, shard, file.header)) faults.push_back(std::move(fault));
+        for (auto& fault : faults_of(folder / shard.file, shard, file.header))
+            faults.push_back(std::move(fault));
     return faults;
 }
 
@@ -116,7 +123,8 @@ std::vector<fs::path> datasets_at(const fs::path& path) {
         for (const auto& entry : fs::directory_iterator(path))
             if (fs::exists(entry.path() / "dataset.json")) found.push_back(entry.path());
     if (found.empty())
-        throw Error("{}: no dataset (no dataset.json in it or in a folder of it); actformer ingest makes one", path.string());
+        throw Error("{}: no dataset (no dataset.json in it or in a folder of it); actformer ingest makes one",
+                    path.string());
     std::sort(found.begin(), found.end());
     return found;
 }

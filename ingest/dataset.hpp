@@ -15,7 +15,7 @@ namespace actformer::ingest {
 
 /// What dataset.json says, shards apart.
 struct DatasetHeader {
-    std::string name;                    ///< as in "ntu-1p"
+    std::string name;                     ///< as in "ntu-1p"
     std::string representation = "limb";  ///< root position and unit limb vectors, 3 numbers a joint
     Topology topology;
     std::uint32_t persons = 1;

@@ -28,7 +28,8 @@ std::vector<Split> splits_from_json(const Json& json) {
         for (const auto& c : conditions) {
             const bool negated = c.contains("not_in");
             split.conditions.push_back({c.at("field").get<std::string>(),
-                                        c.at(negated ? "not_in" : "in").get<std::vector<std::string>>(), negated});
+                                        c.at(negated ? "not_in" : "in").get<std::vector<std::string>>(),
+                                        negated});
         }
         out.push_back(std::move(split));
     }
@@ -37,8 +38,9 @@ std::vector<Split> splits_from_json(const Json& json) {
 
 DatasetFile from_json(const Json& json, const std::string& where) {
     if (const auto format = json.at("format").get<int>(); format != dataset_format)
-        throw Error("{}: format {}, but this program reads format {}; use the version it was written with ({})", where,
-                    format, dataset_format, json.value("program", "unknown"));
+        throw Error(
+            "{}: format {}, but this program reads format {}; use the version it was written with ({})",
+            where, format, dataset_format, json.value("program", "unknown"));
     DatasetFile file;
     auto& header = file.header;
     header.name = json.at("name").get<std::string>();

@@ -15,7 +15,8 @@ namespace {
 
 class Descriptor {
   public:
-    Descriptor(const std::filesystem::path& path, int flags) : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    Descriptor(const std::filesystem::path& path, int flags)
+        : fd_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
     ~Descriptor() { close(); }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
@@ -29,7 +30,9 @@ class Descriptor {
     int fd_;
 };
 
-std::string reason() { return std::strerror(errno); }
+std::string reason() {
+    return std::strerror(errno);
+}
 
 /// Bytes read, fewer than `size` only at the end of the file.
 std::size_t read_fully(int fd, char* to, std::size_t size, const std::filesystem::path& path) {
@@ -56,15 +59,16 @@ bool write_fully(int fd, std::string_view bytes) {
 
 }  // namespace
 
-std::string_view read_text(const std::filesystem::path& path, std::vector<char>& scratch, std::uint64_t limit) {
+std::string_view read_text(const std::filesystem::path& path, std::vector<char>& scratch,
+                           std::uint64_t limit) {
     const Descriptor file(path, O_RDONLY);
     struct stat status {};
     if (file.get() < 0 || ::fstat(file.get(), &status) != 0)
         throw Error("{}: cannot be read: {}", path.string(), reason());
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (size > limit)
-        throw Error("{}: {} MiB of text, more than the {} MiB that one clip may have", path.string(), size >> 20,
-                    limit >> 20);
+        throw Error("{}: {} MiB of text, more than the {} MiB that one clip may have", path.string(),
+                    size >> 20, limit >> 20);
     if (scratch.size() < size + text_padding) scratch.resize(size + text_padding);
     const auto got = read_fully(file.get(), scratch.data(), size, path);
     std::memset(scratch.data() + got, 0, text_padding);
@@ -75,14 +79,16 @@ void read_in_pieces(const std::filesystem::path& path, const std::function<void(
     const Descriptor file(path, O_RDONLY);
     if (file.get() < 0) throw Error("{}: cannot be read: {}", path.string(), reason());
     std::vector<char> piece(std::size_t{1} << 20);
-    while (const auto got = read_fully(file.get(), piece.data(), piece.size(), path)) use({piece.data(), got});
+    while (const auto got = read_fully(file.get(), piece.data(), piece.size(), path))
+        use({piece.data(), got});
 }
 
 void write_whole(const std::filesystem::path& path, std::string_view bytes) {
     auto aside = path;
     aside += ".partial";
     Descriptor file(aside, O_WRONLY | O_CREAT | O_TRUNC);
-    if (file.get() >= 0 && write_fully(file.get(), bytes) && file.close() && ::rename(aside.c_str(), path.c_str()) == 0)
+    if (file.get() >= 0 && write_fully(file.get(), bytes) && file.close() &&
+        ::rename(aside.c_str(), path.c_str()) == 0)
         return;
     const auto why = reason();
     ::unlink(aside.c_str());

@@ -14,7 +14,8 @@ constexpr std::size_t text_padding = 64;
 
 /// The text of `path` in `scratch` (which only ever grows), followed by text_padding zero bytes.
 /// Throws Error where it cannot be read or is larger than `limit` bytes.
-std::string_view read_text(const std::filesystem::path& path, std::vector<char>& scratch, std::uint64_t limit);
+std::string_view read_text(const std::filesystem::path& path, std::vector<char>& scratch,
+                           std::uint64_t limit);
 
 /// Calls `use` with a file's bytes in order, a megabyte or so at a time. Throws Error where it cannot be read.
 void read_in_pieces(const std::filesystem::path& path, const std::function<void(std::string_view)>& use);

@@ -34,7 +34,7 @@ struct RawClip {
 struct Rejection {
     enum class Kind {
         broken,   ///< the file is at fault; --strict stops at it
-        dropped,  ///< a sound file without enough persons for its dataset
+        dropped,  ///< a sound file that no dataset is for: too few persons, or a class that is not asked for
         missing,  ///< named in the missing list
         duplicate
     };

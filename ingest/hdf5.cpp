@@ -69,7 +69,8 @@ bool Reader::has(const std::string& name) const {
 
 bool Reader::is_array(const std::string& name) const {
     H5O_info_t info;
-    return H5Oget_info_by_name(file_.get(), name.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5O_TYPE_DATASET;
+    return H5Oget_info_by_name(file_.get(), name.c_str(), &info, H5P_DEFAULT) >= 0 &&
+           info.type == H5O_TYPE_DATASET;
 }
 
 Handle Reader::open(const std::string& name) const {
@@ -97,12 +98,14 @@ void Reader::read_into(const std::string& name, hid_t type, void* to) const {
     const auto set = open(name);
     const Handle stored(H5Dget_type(set.get()), H5Tclose);
     const auto kind = H5Tget_class(stored.get());
-    if (kind != H5T_INTEGER && kind != H5T_FLOAT) throw Error("{}: '{}' holds no numbers", path_.string(), name);
+    if (kind != H5T_INTEGER && kind != H5T_FLOAT)
+        throw Error("{}: '{}' holds no numbers", path_.string(), name);
     if (H5Dread(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0)
         throw Error("{}: '{}' cannot be read: damaged", path_.string(), name);
 }
 
-std::vector<float> Reader::read_rows(const std::string& name, std::uint64_t first, std::uint64_t count) const {
+std::vector<float> Reader::read_rows(const std::string& name, std::uint64_t first,
+                                     std::uint64_t count) const {
     const auto set = open(name);
     auto extent = shape(name);
     if (extent.empty() || first + count > extent[0] || first + count < first)
@@ -116,8 +119,8 @@ std::vector<float> Reader::read_rows(const std::string& name, std::uint64_t firs
     const Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
     H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
     if (H5Dread(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
-        throw Error("{}: '{}' cannot be read at row {}: damaged; see actformer inspect --verify", path_.string(), name,
-                    first);
+        throw Error("{}: '{}' cannot be read at row {}: damaged; see actformer inspect --verify",
+                    path_.string(), name, first);
     return values;
 }
 
@@ -140,12 +143,14 @@ std::vector<std::string> Reader::read_strings(const std::string& name) const {
 }
 
 std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {
-    if (H5Aexists(file_.get(), name.c_str()) <= 0) throw Error("{}: has no attribute '{}'", path_.string(), name);
+    if (H5Aexists(file_.get(), name.c_str()) <= 0)
+        throw Error("{}: has no attribute '{}'", path_.string(), name);
     const Handle attribute(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
     const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
     if (!type || H5Tget_class(type.get()) != H5T_INTEGER || !space)
         throw Error("{}: attribute '{}' holds no whole numbers", path_.string(), name);
-    std::vector<std::int64_t> values(static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
+    std::vector<std::int64_t> values(
+        static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
     if (!values.empty() && H5Aread(attribute.get(), H5T_NATIVE_INT64, values.data()) < 0)
         throw Error("{}: attribute '{}' cannot be read: damaged", path_.string(), name);
     return values;
@@ -153,10 +158,12 @@ std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) con
 
 Writer::Writer(std::size_t expected_bytes) {
     silence();
-    const std::size_t step = expected_bytes + expected_bytes / 64 + (std::size_t{1} << 20);  // so that it grows once
+    const std::size_t step =
+        expected_bytes + expected_bytes / 64 + (std::size_t{1} << 20);  // so that it grows once
     const auto access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making a file in memory");
     H5Pset_fapl_core(access.get(), step, false);
-    file_ = checked(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose, "making a file in memory");
+    file_ = checked(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose,
+                    "making a file in memory");
 }
 
 Writer::Writer(const std::filesystem::path& path) {
@@ -172,8 +179,8 @@ bool Writer::finish() {
 }
 
 Handle Writer::create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk) {
-    const auto space = checked(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose,
-                               "describing an array");
+    const auto space = checked(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                               H5Sclose, "describing an array");
     const auto layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describing an array");
     H5Pset_obj_track_times(layout.get(), false);  // the same data must give the same bytes
     if (rows_a_chunk > 0 && shape[0] > 0) {
@@ -184,8 +191,9 @@ Handle Writer::create(const std::string& name, hid_t type, const Shape& shape, h
     }
     const auto links = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "describing an array");
     H5Pset_create_intermediate_group(links.get(), 1);
-    return checked(H5Dcreate2(file_.get(), name.c_str(), type, space.get(), links.get(), layout.get(), H5P_DEFAULT), H5Dclose,
-                   "adding an array");
+    return checked(
+        H5Dcreate2(file_.get(), name.c_str(), type, space.get(), links.get(), layout.get(), H5P_DEFAULT),
+        H5Dclose, "adding an array");
 }
 
 void Writer::write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
@@ -196,8 +204,8 @@ void Writer::write_from(const std::string& name, hid_t type, const Shape& shape,
         throw Error("HDF5: writing '{}' failed; is there space left?", name);
 }
 
-void Writer::write_pieces(const std::string& name, const Shape& shape, const std::vector<std::span<const float>>& pieces,
-                          hsize_t rows_a_chunk) {
+void Writer::write_pieces(const std::string& name, const Shape& shape,
+                          const std::vector<std::span<const float>>& pieces, hsize_t rows_a_chunk) {
     const auto set = create(name, H5T_NATIVE_FLOAT, shape, rows_a_chunk);
     const Handle space(H5Dget_space(set.get()), H5Sclose);
     const auto row = std::accumulate(shape.begin() + 1, shape.end(), hsize_t{1}, std::multiplies<>());
@@ -222,13 +230,15 @@ void Writer::write_strings(const std::string& name, const std::vector<std::strin
 }
 
 void Writer::attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value) {
-    const auto attribute = checked(H5Acreate2(file_.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT),
-                                   H5Aclose, "adding an attribute");
+    const auto attribute =
+        checked(H5Acreate2(file_.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                "adding an attribute");
     H5Awrite(attribute.get(), type, value);
 }
 
 void Writer::attribute(const std::string& name, const std::string& value) {
-    attribute_from(name, string_type(value.size()).get(), Handle(H5Screate(H5S_SCALAR), H5Sclose), value.data());
+    attribute_from(name, string_type(value.size()).get(), Handle(H5Screate(H5S_SCALAR), H5Sclose),
+                   value.data());
 }
 
 void Writer::attribute(const std::string& name, std::int64_t value) {
@@ -237,14 +247,15 @@ void Writer::attribute(const std::string& name, std::int64_t value) {
 
 void Writer::attribute(const std::string& name, const std::vector<std::int64_t>& values) {
     const hsize_t count = values.size();
-    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose), values.data());
+    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
+                   values.data());
 }
 
 void Writer::image(const std::function<void(std::string_view)>& use) {
     void* memory = nullptr;  // of the file itself: a copy would cost as much again
     hsize_t size = 0;
-    if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 || H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &memory) < 0 ||
-        H5Fget_filesize(file_.get(), &size) < 0)
+    if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 ||
+        H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &memory) < 0 || H5Fget_filesize(file_.get(), &size) < 0)
         throw Error("HDF5: a file in memory cannot be read back; is there enough memory?");
     use({*static_cast<const char**>(memory), size});
 }

@@ -31,11 +31,17 @@ class Handle {
 template <typename T>
 hid_t type_of();
 template <>
-inline hid_t type_of<float>() { return H5T_NATIVE_FLOAT; }
+inline hid_t type_of<float>() {
+    return H5T_NATIVE_FLOAT;
+}
 template <>
-inline hid_t type_of<std::uint32_t>() { return H5T_NATIVE_UINT32; }
+inline hid_t type_of<std::uint32_t>() {
+    return H5T_NATIVE_UINT32;
+}
 template <>
-inline hid_t type_of<std::uint64_t>() { return H5T_NATIVE_UINT64; }
+inline hid_t type_of<std::uint64_t>() {
+    return H5T_NATIVE_UINT64;
+}
 
 using Shape = std::vector<hsize_t>;
 
@@ -82,7 +88,8 @@ class Writer {
 
     /// `rows_a_chunk` rows of the first axis share a checksummed chunk; 0 stores the array in one piece.
     template <typename T>
-    void write(const std::string& name, const Shape& shape, std::span<const T> values, hsize_t rows_a_chunk = 0) {
+    void write(const std::string& name, const Shape& shape, std::span<const T> values,
+               hsize_t rows_a_chunk = 0) {
         write_from(name, type_of<T>(), shape, values.data(), rows_a_chunk);
     }
 
@@ -92,8 +99,8 @@ class Writer {
     void attribute(const std::string& name, const std::vector<std::int64_t>& values);
 
     /// A chunked, checksummed array that lies in memory in pieces, each some whole rows of the first axis.
-    void write_pieces(const std::string& name, const Shape& shape, const std::vector<std::span<const float>>& pieces,
-                      hsize_t rows_a_chunk);
+    void write_pieces(const std::string& name, const Shape& shape,
+                      const std::vector<std::span<const float>>& pieces, hsize_t rows_a_chunk);
 
     /// Calls `use` with the bytes of a file in memory.
     void image(const std::function<void(std::string_view)>& use);
@@ -104,7 +111,8 @@ class Writer {
   private:
     void attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value);
     Handle create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk);
-    void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values, hsize_t rows_a_chunk);
+    void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
+                    hsize_t rows_a_chunk);
     Handle file_;
 };
 

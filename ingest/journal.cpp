@@ -24,21 +24,29 @@ Json to_json(const Tranche& tranche) {
         left_out.push_back({one.path, static_cast<int>(one.rejection.kind), one.rejection.reason});
     for (const auto& [dataset, shard] : tranche.shards)
         shards.push_back({{"dataset", dataset}, {"shard", ingest::to_json(shard)}});
-    return {{"files", tranche.files},   {"text_bytes", tranche.text_bytes}, {"fingerprint", tranche.fingerprint},
-            {"left_out", left_out}, {"shards", shards},                 {"names", tranche.names}};
+    return {{"files", tranche.files},
+            {"text_bytes", tranche.text_bytes},
+            {"fingerprint", tranche.fingerprint},
+            {"left_out", left_out},
+            {"shards", shards},
+            {"names", tranche.names}};
 }
 
 Tranche tranche_from(const Json& json) {
-    Tranche tranche{json.at("files"), json.at("text_bytes"), json.at("fingerprint"), {}, {}, json.at("names")};
+    Tranche tranche{json.at("files"), json.at("text_bytes"), json.at("fingerprint"), {}, {},
+                    json.at("names")};
     for (const auto& one : json.at("left_out"))
-        tranche.left_out.push_back({one.at(0), {static_cast<Rejection::Kind>(one.at(1).get<int>()), one.at(2)}});
+        tranche.left_out.push_back(
+            {one.at(0), {static_cast<Rejection::Kind>(one.at(1).get<int>()), one.at(2)}});
     for (const auto& one : json.at("shards"))
         tranche.shards.emplace_back(one.at("dataset").get<std::size_t>(), shard_from_json(one.at("shard")));
     return tranche;
 }
 
 /// Text with bytes that are no UTF-8 (file names may hold any) replaced, so that every line can be read back.
-std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string line_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
 
 void append(const fs::path& path, const std::string& line) {
     std::ofstream file(path, std::ios::app | std::ios::binary);
@@ -56,7 +64,8 @@ Workplace::Workplace(fs::path folder, const std::string& request) : folder_(std:
         throw Error("{}: the folder cannot be made or written: {}", folder_.string(),
                     error ? error.message() : std::strerror(errno));
     if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
-        throw Error("{}: another ingest is writing there; wait for it, or choose another -o", folder_.string());
+        throw Error("{}: another ingest is writing there; wait for it, or choose another -o",
+                    folder_.string());
     load(request);
 }
 
@@ -71,7 +80,8 @@ void Workplace::load(const std::string& request) {
     std::string whole = line + "\n";
     std::set<fs::path> known;
     bool all_there = true;
-    while (std::getline(journal, line) && !journal.eof()) {  // a line without its end was cut short by the kill
+    while (std::getline(journal, line) &&
+           !journal.eof()) {  // a line without its end was cut short by the kill
         const auto json = Json::parse(line, nullptr, false);
         if (json.is_discarded()) break;
         finished_.push_back(tranche_from(json));
@@ -115,6 +125,7 @@ void Workplace::deliver(const fs::path& out) {
 void Workplace::discard() {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
+    finished_.clear();
 }
 
 }  // namespace actformer::ingest

@@ -24,8 +24,9 @@ struct Tranche {
     std::uint64_t files = 0, text_bytes = 0;
     std::string fingerprint;  ///< of all raw text up to its end
     std::vector<LeftOut> left_out;
-    std::vector<std::pair<std::size_t, ShardEntry>> shards;  ///< dataset number, shard with its path below data()
-    std::vector<std::string> names;                          ///< of the clips kept
+    std::vector<std::pair<std::size_t, ShardEntry>>
+        shards;                      ///< dataset number, shard with its path below data()
+    std::vector<std::string> names;  ///< of the clips kept
 };
 
 /// The working folder OUT.partial, held by one process at a time.

@@ -10,10 +10,12 @@ struct MotionsFile::Handle {
     hdf5::Reader reader;
 };
 
-MotionsFile::MotionsFile(const std::filesystem::path& path) : path_(path), file_(new Handle{hdf5::Reader(path)}) {
+MotionsFile::MotionsFile(const std::filesystem::path& path)
+    : path_(path), file_(new Handle{hdf5::Reader(path)}) {
     for (auto& name : file_->reader.names())
         if (file_->reader.is_array(name)) names_.push_back(std::move(name));
-    if (names_.empty()) throw Error("{}: holds no motions; one (P*C, K, T) array a clip is expected", path.string());
+    if (names_.empty())
+        throw Error("{}: holds no motions; one (P*C, K, T) array a clip is expected", path.string());
 }
 
 MotionsFile::~MotionsFile() = default;
@@ -64,8 +66,10 @@ void MotionsWriter::add(const std::string& name, const Motion& motion) {
 
 void MotionsWriter::finish() {
     std::error_code error;
-    if (file_->writer.finish()) std::filesystem::rename(file_->aside, path_, error);
-    else error = std::make_error_code(std::errc::no_space_on_device);
+    if (file_->writer.finish())
+        std::filesystem::rename(file_->aside, path_, error);
+    else
+        error = std::make_error_code(std::errc::no_space_on_device);
     if (error) throw Error("{}: cannot be written: {}", path_.string(), error.message());
 }
 

@@ -39,8 +39,8 @@ struct IngestSummary {
     std::map<std::string, std::uint64_t> left_out;  ///< kind of rejection -> files
     std::vector<PerDataset> datasets;
     std::vector<std::string> first_rejections;  ///< a few, "path: reason", for the eye
-    bool was_complete = false;                  ///< OUT had been finished by an earlier run of the same request
-    std::uint64_t resumed_files = 0;            ///< taken over from an interrupted run
+    bool was_complete = false;        ///< OUT had been finished by an earlier run of the same request
+    std::uint64_t resumed_files = 0;  ///< taken over from an interrupted run
 
     /// Core-seconds a stage took, of this run: where the time goes. Stages overlap, so they add up to more than `wall`.
     struct Seconds {

@@ -43,9 +43,12 @@ void ShardBuilder::image(const std::string& settings, const std::string& fingerp
     file.attribute("settings", settings);
     file.attribute("source", fingerprint);
     file.write_pieces("motion", {frames_, p, k, 3}, motion, frames_a_chunk);
-    file.write<std::uint64_t>("clip/offset", {n}, column<std::uint64_t>(clips_, [](auto& c) { return c.offset; }));
-    file.write<std::uint32_t>("clip/length", {n}, column<std::uint32_t>(clips_, [](auto& c) { return c.frames; }));
-    file.write<std::uint32_t>("clip/label", {n}, column<std::uint32_t>(clips_, [](auto& c) { return c.label; }));
+    file.write<std::uint64_t>("clip/offset", {n},
+                              column<std::uint64_t>(clips_, [](auto& c) { return c.offset; }));
+    file.write<std::uint32_t>("clip/length", {n},
+                              column<std::uint32_t>(clips_, [](auto& c) { return c.frames; }));
+    file.write<std::uint32_t>("clip/label", {n},
+                              column<std::uint32_t>(clips_, [](auto& c) { return c.label; }));
     file.write_strings("clip/name", column<std::string>(clips_, [](auto& c) { return c.name; }));
     for (std::size_t f = 0; f < header_->fields.size(); ++f)
         file.write_strings("clip/" + header_->fields[f],
@@ -54,14 +57,17 @@ void ShardBuilder::image(const std::string& settings, const std::string& fingerp
     file.image(use);
 }
 
-std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHeader& header, std::uint32_t shard) {
+std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHeader& header,
+                             std::uint32_t shard) {
     const hdf5::Reader file(path);
     const auto motion = file.shape("motion");
-    if (motion.size() != 4 || motion[1] != header.persons || motion[2] != header.topology.joints() || motion[3] != 3)
-        throw Error("{}: 'motion' is not (frames, {}, {}, 3) as dataset.json says", path.string(), header.persons,
-                    header.topology.joints());
+    if (motion.size() != 4 || motion[1] != header.persons || motion[2] != header.topology.joints() ||
+        motion[3] != 3)
+        throw Error("{}: 'motion' is not (frames, {}, {}, 3) as dataset.json says", path.string(),
+                    header.persons, header.topology.joints());
     const auto offsets = file.read<std::uint64_t>("clip/offset");
-    const auto lengths = file.read<std::uint32_t>("clip/length"), labels = file.read<std::uint32_t>("clip/label");
+    const auto lengths = file.read<std::uint32_t>("clip/length"),
+               labels = file.read<std::uint32_t>("clip/label");
     const auto names = file.read_strings("clip/name");
     std::vector<std::vector<std::string>> fields;
     for (const auto& field : header.fields) fields.push_back(file.read_strings("clip/" + field));
@@ -84,6 +90,8 @@ std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHea
     return clips;
 }
 
-std::string shard_name(std::size_t number) { return fmt::format("shard-{:05}.h5", number); }
+std::string shard_name(std::size_t number) {
+    return fmt::format("shard-{:05}.h5", number);
+}
 
 }  // namespace actformer::ingest

@@ -43,7 +43,8 @@ class ShardBuilder {
 };
 
 /// Metadata of every clip in the shard, `shard` being its number. Throws Error for a damaged or foreign file.
-std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHeader& header, std::uint32_t shard);
+std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHeader& header,
+                             std::uint32_t shard);
 
 /// "shard-00012.h5"
 std::string shard_name(std::size_t number);

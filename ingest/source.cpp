@@ -19,11 +19,14 @@ constexpr std::uint64_t largest_text = std::uint64_t{128} << 20;
 
 bool has_extension(const std::string& name, std::string_view extension) {
     if (name.size() <= extension.size()) return false;
-    return std::equal(extension.begin(), extension.end(), name.end() - static_cast<std::ptrdiff_t>(extension.size()),
+    return std::equal(extension.begin(), extension.end(),
+                      name.end() - static_cast<std::ptrdiff_t>(extension.size()),
                       [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
 }
 
-std::string file_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+std::string file_name(const std::string& path) {
+    return path.substr(path.find_last_of('/') + 1);
+}
 
 /// A file of the format, and not one of the "._" companions that some archivers add.
 bool is_wanted(const std::string& path, std::string_view extension) {
@@ -39,11 +42,13 @@ std::string stem_of(const std::string& path, std::string_view extension) {
 /// One archive, read front to back.
 class Archive {
   public:
-    explicit Archive(fs::path path) : path_(std::move(path)), reader_(archive_read_new(), &archive_read_free) {
+    explicit Archive(fs::path path)
+        : path_(std::move(path)), reader_(archive_read_new(), &archive_read_free) {
         archive_read_support_filter_all(reader_.get());
         archive_read_support_format_all(reader_.get());
         if (archive_read_open_filename(reader_.get(), path_.c_str(), std::size_t{1} << 17) != ARCHIVE_OK)
-            throw Error("{}: neither a folder nor an archive that can be read: {}", path_.string(), message());
+            throw Error("{}: neither a folder nor an archive that can be read: {}", path_.string(),
+                        message());
     }
 
     /// Moves to the next wanted member; false at the end.
@@ -79,7 +84,8 @@ class Archive {
             if (result == ARCHIVE_EOF) break;
             if (result < ARCHIVE_WARN) broken();
             if (static_cast<std::uint64_t>(offset) + size > largest_text) {
-                file.unreadable = fmt::format("more than the {} MiB that one clip may have", largest_text >> 20);
+                file.unreadable =
+                    fmt::format("more than the {} MiB that one clip may have", largest_text >> 20);
                 bytes.clear();
                 break;
             }
@@ -91,7 +97,9 @@ class Archive {
     }
 
     /// Compressed bytes read so far.
-    std::uint64_t position() const { return static_cast<std::uint64_t>(archive_filter_bytes(reader_.get(), -1)); }
+    std::uint64_t position() const {
+        return static_cast<std::uint64_t>(archive_filter_bytes(reader_.get(), -1));
+    }
 
   private:
     std::string message() const {
@@ -146,7 +154,8 @@ struct Source::State {
         for (; at < items.size(); ++at) {
             const auto& item = items[at];
             if (!item.archive) {
-                file = RawFile{item.path.string(), stem_of(item.path.string(), extension), item.bytes, false, {}, {}};
+                file = RawFile{
+                    item.path.string(), stem_of(item.path.string(), extension), item.bytes, false, {}, {}};
                 passed += item.bytes;
                 ++at;
                 return true;
@@ -174,7 +183,8 @@ Source::Source(const std::vector<fs::path>& raw, std::string_view extension) : s
             state_->items.insert(state_->items.end(), below.begin(), below.end());
         } else {
             const bool archive = !has_extension(path.string(), extension);
-            if (archive) const Archive opens(path);  // so that a wrong argument is said before any work is done
+            if (archive)
+                const Archive opens(path);  // so that a wrong argument is said before any work is done
             state_->items.push_back({path, fs::file_size(path, error), archive});
         }
     }
@@ -187,8 +197,12 @@ Source::Source(const std::vector<fs::path>& raw, std::string_view extension) : s
 
 Source::~Source() = default;
 
-bool Source::next(RawFile& file) { return state_->step(file, true); }
-bool Source::next_name(RawFile& file) { return state_->step(file, false); }
+bool Source::next(RawFile& file) {
+    return state_->step(file, true);
+}
+bool Source::next_name(RawFile& file) {
+    return state_->step(file, false);
+}
 
 std::uint64_t Source::bytes_total() const {
     std::uint64_t total = 0;

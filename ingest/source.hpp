@@ -12,12 +12,12 @@ namespace actformer::ingest {
 
 /// One file of a source: on disk to be read when wanted, or already in memory (out of an archive).
 struct RawFile {
-    std::string path;          ///< for messages: the file, or archive:member
-    std::string stem;          ///< file name without folder and extension
-    std::uint64_t size = 0;    ///< bytes of text
+    std::string path;        ///< for messages: the file, or archive:member
+    std::string stem;        ///< file name without folder and extension
+    std::uint64_t size = 0;  ///< bytes of text
     bool in_memory = false;
-    std::vector<char> bytes;   ///< in_memory: the text and 64 zero bytes after it
-    std::string unreadable;    ///< why it could not be read out of the archive; empty where it could
+    std::vector<char> bytes;  ///< in_memory: the text and 64 zero bytes after it
+    std::string unreadable;   ///< why it could not be read out of the archive; empty where it could
 
     /// The text, in `scratch` or in `bytes`, followed by 64 zero bytes. Throws Error where the file cannot be read.
     std::string_view text(std::vector<char>& scratch) const;

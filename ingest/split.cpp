@@ -23,17 +23,21 @@ bool Split::holds(const std::vector<std::string>& fields, const std::vector<std:
     return std::all_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
         const auto field = std::find(fields.begin(), fields.end(), condition.field);
         if (field == fields.end())
-            throw Error("split {}: clips have no field '{}'; they have {}", name, condition.field, fmt::join(fields, ", "));
+            throw Error("split {}: clips have no field '{}'; they have {}", name, condition.field,
+                        fmt::join(fields, ", "));
         const auto& value = values.at(static_cast<std::size_t>(field - fields.begin()));
-        const bool named = std::find(condition.values.begin(), condition.values.end(), value) != condition.values.end();
+        const bool named =
+            std::find(condition.values.begin(), condition.values.end(), value) != condition.values.end();
         return named != condition.negated;
     });
 }
 
 Split parse_split(const std::string& text) {
     const auto refuse = [&]() -> Error {
-        return Error("split '{}' is not of the form NAME=FIELD:VALUE,VALUE;FIELD!:VALUE, as in "
-                     "xstyle/train=style:active,normal", text);
+        return Error(
+            "split '{}' is not of the form NAME=FIELD:VALUE,VALUE;FIELD!:VALUE, as in "
+            "xstyle/train=style:active,normal",
+            text);
     };
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0) throw refuse();

@@ -27,7 +27,8 @@ void Topology::check(const std::string& where) const {
     if (parents[0] != -1) throw Error("{}: joint 0 ({}) must be the root, with parent -1", where, names[0]);
     for (int j = 1; j < k; ++j)
         if (parents[j] < 0 || parents[j] >= k || parents[j] == j)
-            throw Error("{}: joint {} ({}) has parent {}, which is no other joint", where, j, names[j], parents[j]);
+            throw Error("{}: joint {} ({}) has parent {}, which is no other joint", where, j, names[j],
+                        parents[j]);
     if (const auto reached = order().size(); reached != joints())
         throw Error("{}: the joints are no tree: {} of {} hang on a cycle", where, k - reached, k);
     if (const std::set<std::string> unique(names.begin(), names.end()); unique.size() != names.size())
@@ -36,11 +37,12 @@ void Topology::check(const std::string& where) const {
 
 const Topology& ntu25() {
     static const Topology topology{
-        {"pelvis",     "spine",      "neck",      "head",           "left shoulder",  "left elbow",    "left wrist",
-         "left hand",  "right shoulder", "right elbow", "right wrist", "right hand",  "left hip",      "left knee",
-         "left ankle", "left foot",  "right hip", "right knee",     "right ankle",    "right foot",    "chest",
-         "left tip",   "left thumb", "right tip", "right thumb"},
-        {-1, 0, 20, 2, 20, 4, 5, 6, 20, 8, 9, 10, 0, 12, 13, 14, 0, 16, 17, 18, 1, 7, 7, 11, 11}};
+        {"pelvis",      "spine",      "neck",       "head",           "left shoulder",
+         "left elbow",  "left wrist", "left hand",  "right shoulder", "right elbow",
+         "right wrist", "right hand", "left hip",   "left knee",      "left ankle",
+         "left foot",   "right hip",  "right knee", "right ankle",    "right foot",
+         "chest",       "left tip",   "left thumb", "right tip",      "right thumb"},
+        {ntu25_parents.begin(), ntu25_parents.end()}};
     return topology;
 }
 

@@ -18,7 +18,8 @@ class Buffer {
     Buffer(Device& device, std::size_t count) : device_(&device), count_(count) {
         try {
             // OpenCL has no empty buffers; one spare value stands for none.
-            memory_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE, std::max<std::size_t>(count, 1) * sizeof(T));
+            memory_ =
+                cl::Buffer(device.context(), CL_MEM_READ_WRITE, std::max<std::size_t>(count, 1) * sizeof(T));
         } catch (const cl::Error& e) {
             raise(device.info(), fmt::format("allocating {} bytes", count * sizeof(T)), e);
         }
@@ -51,12 +52,41 @@ class Buffer {
     }
 
     std::vector<T> download() const {
-        std::vector<T> values(count_);
-        download(values);
-        return values;
+        if (count_ == 0) return {};
+        const Mapped all(*this, CL_MAP_READ);
+        return {all.values, all.values + count_};
+    }
+
+    /// Calls `fill` with a span over all values, to be written; where the device shares memory, in place. What `fill` leaves
+    /// out is undefined.
+    template <typename Fill>
+    void write_with(Fill fill) {
+        if (count_ == 0) return;
+        const Mapped all(*this, CL_MAP_WRITE);
+        fill(std::span<T>(all.values, count_));
     }
 
   private:
+    /// All values as host memory for as long as it lives.
+    struct Mapped {
+        Mapped(const Buffer& of, cl_map_flags how) : buffer(of) {
+            try {
+                values = static_cast<T*>(buffer.device_->queue().enqueueMapBuffer(
+                    buffer.memory_, CL_TRUE, how, 0, buffer.count_ * sizeof(T)));
+            } catch (const cl::Error& e) {
+                raise(buffer.device_->info(), "mapping device memory", e);
+            }
+        }
+        ~Mapped() {
+            // Fails only where the device is lost, which the next call reports.
+            clEnqueueUnmapMemObject(buffer.device_->queue()(), buffer.memory_(), values, 0, nullptr, nullptr);
+        }
+        Mapped(const Mapped&) = delete;
+        Mapped& operator=(const Mapped&) = delete;
+        const Buffer& buffer;
+        T* values = nullptr;
+    };
+
     Device* device_ = nullptr;
     std::size_t count_ = 0;
     cl::Buffer memory_;
@@ -67,7 +97,9 @@ template <typename T>
 const cl::Buffer& argument(const Buffer<T>& b) {
     return b.memory();
 }
-inline const cl::Buffer& argument(const cl::Buffer& b) { return b; }
+inline const cl::Buffer& argument(const cl::Buffer& b) {
+    return b;
+}
 template <typename T>
 T argument(T value) {
     static_assert(std::is_arithmetic_v<T> && sizeof(T) == 4, "kernels take 32-bit numbers and buffers");
@@ -78,8 +110,8 @@ T argument(T value) {
 /// Work-items a group along each dimension, found from what the device and the kernel allow. Groups depend on the range
 /// only through its order of magnitude: drivers that compile a kernel anew for every group size (PoCL) do so seldom.
 /// `wanted` at most: enough to fill a GPU's wavefronts, few enough for many groups on a CPU's cores.
-std::array<std::size_t, 2> group_size(const Device& device, const cl::Kernel& kernel, std::array<std::size_t, 2> range,
-                                      std::size_t wanted = 128);
+std::array<std::size_t, 2> group_size(const Device& device, const cl::Kernel& kernel,
+                                      std::array<std::size_t, 2> range, std::size_t wanted = 128);
 
 /// Enqueues `kernel` over at least `range` (x, y) work-items, rounded up to whole groups: the kernel itself leaves out those
 /// beyond. Arguments are buffers and 32-bit numbers. An empty range launches nothing.
@@ -100,7 +132,8 @@ void launch(Device& device, cl::Kernel kernel, std::array<std::size_t, 2> range,
 
 /// The same over (x, y, z) work-items in groups of at most `items`, for kernels that are particular about their groups.
 template <typename... Args>
-void launch(Device& device, cl::Kernel kernel, std::array<std::size_t, 3> range, std::size_t items, const Args&... args) {
+void launch(Device& device, cl::Kernel kernel, std::array<std::size_t, 3> range, std::size_t items,
+            const Args&... args) {
     if (range[0] == 0 || range[1] == 0 || range[2] == 0) return;
     try {
         cl_uint i = 0;

@@ -8,7 +8,8 @@ namespace {
 
 /// Where each clip's frames lie, on the device.
 struct FrameTable {
-    FrameTable(Device& device, const ClipBatch& batch) : total(static_cast<std::uint32_t>(batch.total_frames())) {
+    FrameTable(Device& device, const ClipBatch& batch)
+        : total(static_cast<std::uint32_t>(batch.total_frames())) {
         std::vector<std::uint32_t> starts{0}, owners;
         owners.reserve(total);
         for (std::uint32_t clip = 0; clip < batch.clips(); ++clip) {
@@ -24,7 +25,8 @@ struct FrameTable {
     Buffer<std::uint32_t> owner;  ///< (frames) clip of each
 };
 
-LimbRows fill_gaps(Device& device, const ClipBatch& batch, const FrameTable& table, const Buffer<float>& limbs) {
+LimbRows fill_gaps(Device& device, const ClipBatch& batch, const FrameTable& table,
+                   const Buffer<float>& limbs) {
     const std::uint32_t numbers = batch.joints * 3, chunks = (numbers + 15) / 16;
     const std::uint32_t rows = table.total * batch.persons;
     const Buffer<float> times(device, batch.times), step(device, batch.step);
@@ -33,9 +35,10 @@ LimbRows fill_gaps(Device& device, const ClipBatch& batch, const FrameTable& tab
     const Buffer<float> weight(device, rows);
     LimbRows out{Buffer<float>(device, std::size_t{rows} * chunks * 16), chunks * 16};
 
-    launch(device, device.kernel("fill_gaps", "locate"), {batch.persons, table.total}, times, first, table.start, step,
-           table.owner, pair, weight, batch.persons, table.total);
-    launch(device, device.kernel("fill_gaps", "blend"), {chunks, rows}, limbs, pair, weight, out.values, numbers, rows);
+    launch(device, device.kernel("fill_gaps", "locate"), {batch.persons, table.total}, times, first,
+           table.start, step, table.owner, pair, weight, batch.persons, table.total);
+    launch(device, device.kernel("fill_gaps", "blend"), {chunks, rows}, limbs, pair, weight, out.values,
+           numbers, rows);
     return out;
 }
 
@@ -61,23 +64,26 @@ LimbRows smooth(Device& device, const ClipBatch& batch, const FrameTable& table,
     return out;
 }
 
-CleanedBatch normalise(Device& device, const ClipBatch& batch, const FrameTable& table, const LimbRows& limbs) {
+CleanedBatch normalise(Device& device, const ClipBatch& batch, const FrameTable& table,
+                       const LimbRows& limbs) {
     const auto sequences = static_cast<std::uint32_t>(batch.clips()) * batch.persons;
     const std::uint32_t rows = table.total * batch.persons;
     const Buffer<float> bones(device, std::size_t{sequences} * batch.joints);
     const Buffer<cl_float4> roots(device, sequences);
     const Buffer<float> motion(device, std::size_t{rows} * batch.joints * 3);
 
-    launch(device, device.kernel("normalise", "means"), {batch.joints, sequences}, limbs.values, table.start, bones,
-           roots, batch.persons, batch.joints, limbs.pitch, sequences);
-    launch(device, device.kernel("normalise", "unit_limbs"), {batch.joints, rows}, limbs.values, table.owner, roots,
-           motion, batch.persons, batch.joints, limbs.pitch, rows);
+    launch(device, device.kernel("normalise", "means"), {batch.joints, sequences}, limbs.values, table.start,
+           bones, roots, batch.persons, batch.joints, limbs.pitch, sequences);
+    launch(device, device.kernel("normalise", "unit_limbs"), {batch.joints, rows}, limbs.values, table.owner,
+           roots, motion, batch.persons, batch.joints, limbs.pitch, rows);
     return {motion.download(), bones.download()};
 }
 
 }  // namespace
 
-std::size_t ClipBatch::total_frames() const { return std::accumulate(frames.begin(), frames.end(), std::size_t{0}); }
+std::size_t ClipBatch::total_frames() const {
+    return std::accumulate(frames.begin(), frames.end(), std::size_t{0});
+}
 
 LimbRows fill_gaps(Device& device, const ClipBatch& batch, const Buffer<float>& limbs) {
     return fill_gaps(device, batch, FrameTable(device, batch), limbs);
@@ -93,7 +99,8 @@ CleanedBatch normalise(Device& device, const ClipBatch& batch, const LimbRows& l
 
 CleanedBatch clean(Device& device, const ClipBatch& batch, const Buffer<float>& limbs, const Smoothing& how) {
     const FrameTable table(device, batch);
-    return normalise(device, batch, table, smooth(device, batch, table, fill_gaps(device, batch, table, limbs), how));
+    return normalise(device, batch, table,
+                     smooth(device, batch, table, fill_gaps(device, batch, table, limbs), how));
 }
 
 }  // namespace actformer::kernels

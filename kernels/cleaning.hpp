@@ -33,7 +33,7 @@ struct Smoothing {
 
 /// clip i's frames follow clip i-1's.
 struct CleanedBatch {
-    std::vector<float> motion;       ///< (total frames, P, K, 3): unit limbs, and the re-centred root in metres
+    std::vector<float> motion;  ///< (total frames, P, K, 3): unit limbs, and the re-centred root in metres
     std::vector<float> bone_length;  ///< (clips, P, K) metres, the mean over frames; 0 for the root
 };
 

@@ -82,7 +82,8 @@ std::vector<DeviceInfo> list_devices() {
 
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view wish) {
     if (devices.empty())
-        throw Error("no OpenCL device: install a driver (on Debian without a GPU: apt install pocl-opencl-icd)");
+        throw Error(
+            "no OpenCL device: install a driver (on Debian without a GPU: apt install pocl-opencl-icd)");
     std::string from = "--device";
     if (wish.empty()) {
         if (const char* set = std::getenv("ACTFORMER_DEVICE"); set && *set) {
@@ -155,8 +156,8 @@ void raise(const DeviceInfo& device, std::string_view what, const cl::Error& err
             throw OutOfMemory("device {} ({}): out of memory {}; choose another with --device", device.index,
                               device.name, what);
         default:
-            throw Error("device {} ({}): {} failed: {} says {}", device.index, device.name, what, error.what(),
-                        error.err());
+            throw Error("device {} ({}): {} failed: {} says {}", device.index, device.name, what,
+                        error.what(), error.err());
     }
 }
 

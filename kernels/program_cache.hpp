@@ -12,7 +12,8 @@ namespace actformer::kernels {
 /// Programs of one device, keyed by source text and build options. Safe from many threads.
 class ProgramCache {
   public:
-    ProgramCache(cl::Context context, cl::Device device) : context_(std::move(context)), device_(std::move(device)) {}
+    ProgramCache(cl::Context context, cl::Device device)
+        : context_(std::move(context)), device_(std::move(device)) {}
 
     /// Throws Error with `label` and the compiler's log where the source does not build.
     cl::Program get(std::string_view source, std::string_view label, const std::string& options);

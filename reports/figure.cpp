@@ -70,9 +70,11 @@ Figure figure_of(const ingest::Motion& motion, const ingest::Topology& topology,
 
 Figure figure_of(const ingest::SkeletonFile& file, std::string title) {
     const auto& topology = ingest::ntu25();
-    const auto persons = static_cast<std::uint32_t>(file.bodies.size()), k = static_cast<std::uint32_t>(topology.joints());
+    const auto persons = static_cast<std::uint32_t>(file.bodies.size()),
+               k = static_cast<std::uint32_t>(topology.joints());
     const std::size_t bodies = std::size_t{file.frames} * persons;
-    Figure figure{std::move(title), topology, persons, file.frames, 30, {}, std::vector<std::uint8_t>(bodies, 0)};
+    Figure figure{
+        std::move(title), topology, persons, file.frames, 30, {}, std::vector<std::uint8_t>(bodies, 0)};
     figure.joints.resize(bodies * k * 3);
     const std::vector<float> whole(k, 1.0F);  // raw limbs have their lengths still
     for (std::uint32_t p = 0; p < persons; ++p) {

@@ -93,7 +93,7 @@ Figure figure_of_clip(const ingest::Dataset& dataset, std::size_t clip) {
     const auto& header = dataset.header();
     const auto& entry = dataset.clips()[clip];
     return figure_of(dataset.motion(clip), header.topology, dataset.bone_length(clip), header.fps,
-                              title_of(entry.name, entry.label, header.classes));
+                     title_of(entry.name, entry.label, header.classes));
 }
 
 std::vector<Figure> figures_by_name(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
@@ -210,8 +210,7 @@ std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wante
     if (wanted.clips.empty()) {
         std::vector<Candidate> candidates;
         for (std::size_t i = 0; i < names.size(); ++i) candidates.push_back({i, label_of(names[i], body)});
-        picks =
-            spread(of_class(std::move(candidates), wanted, body.classes(), path.string()), wanted.count);
+        picks = spread(of_class(std::move(candidates), wanted, body.classes(), path.string()), wanted.count);
     }
     const double fps = body.dataset ? body.dataset->header().fps : 30;
     std::vector<Figure> figures;
@@ -221,7 +220,7 @@ std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wante
         for (std::uint32_t p = 0; p < motion.persons; ++p)
             lengths.insert(lengths.end(), body.lengths.begin(), body.lengths.end());
         figures.push_back(figure_of(motion, body.topology, lengths, fps,
-                                             title_of(names[i], label_of(names[i], body), body.classes())));
+                                    title_of(names[i], label_of(names[i], body), body.classes())));
     }
     return figures;
 }
@@ -230,7 +229,8 @@ std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wante
 Figure figure_of_raw(const fs::path& path) {
     std::vector<char> text;
     const auto read = ingest::read_skeleton(ingest::read_text(path, text, std::uint64_t{1} << 27));
-    if (const auto* why = std::get_if<ingest::Rejection>(&read)) throw Error("{}: {}", path.string(), why->reason);
+    if (const auto* why = std::get_if<ingest::Rejection>(&read))
+        throw Error("{}: {}", path.string(), why->reason);
     return figure_of(std::get<ingest::SkeletonFile>(read), path.stem().string() + ", raw");
 }
 

@@ -14,7 +14,8 @@ struct Wanted {
     std::string split = "all";       ///< of datasets
     std::string label;               ///< a class's name or its number from 0; empty: any
     std::size_t count = 6;           ///< motions to pick
-    std::filesystem::path bones;     ///< dataset whose skeleton and mean limb lengths a motions file is drawn with
+    std::filesystem::path
+        bones;  ///< dataset whose skeleton and mean limb lengths a motions file is drawn with
 };
 
 /// The motions wanted of what lies at `path`. Throws Error naming `path` and what it lacks.

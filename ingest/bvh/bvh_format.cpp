@@ -161,7 +161,7 @@ ParsedClip BvhFormat::parse(const RawText& raw) const {
     const int root = find_joint(file, header.topology.names[0]);
     if (root < 0)
         return broken(fmt::format("no joint '{}', the root of the first file", header.topology.names[0]));
-    const auto skeleton = skeleton_below(file, static_cast<std::size_t>(root), options_.end_sites);
+    const auto skeleton = skeleton_below(file, static_cast<std::size_t>(root), header.topology);
     if (const auto difference = first_difference(skeleton.topology, header.topology); !difference.empty())
         return broken(fmt::format("another skeleton than the first file's: {}", difference));
     if (const int joint = joint_without_length(file, skeleton); joint >= 0)

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <unordered_set>
 
 namespace actformer::ingest {
 namespace {
@@ -33,15 +35,43 @@ bool is_placeholder(const BvhJoint& joint) {
     return std::all_of(joint.offset.begin(), joint.offset.end(), [](double o) { return o == 0; });
 }
 
-/// A name that neither a joint of the file nor an end site before has.
-std::string end_name(const BvhFile& file, const Topology& topology, const std::string& parent) {
-    const auto taken = [&](const std::string& name) {
-        return find_joint(file, name) >= 0 ||
-               std::find(topology.names.begin(), topology.names.end(), name) != topology.names.end();
-    };
-    std::string name = parent + " end";
-    for (int i = 2; taken(name); ++i) name = fmt::format("{} end {}", parent, i);
-    return name;
+/// Names for end sites, all different and different from the joints'.
+class EndNames {
+  public:
+    explicit EndNames(const BvhFile& file) {
+        for (const auto& joint : file.joints)
+            if (!joint.end_site) taken_.insert(joint.name);
+    }
+
+    std::string next(const std::string& parent) {
+        std::string name = parent + " end";
+        for (int i = 2; !taken_.insert(name).second; ++i) name = fmt::format("{} end {}", parent, i);
+        return name;
+    }
+
+  private:
+    std::unordered_set<std::string> taken_;
+};
+
+using WantedEnd = std::function<bool(const std::string& name)>;
+
+Skeleton skeleton(const BvhFile& file, std::size_t root, const WantedEnd& wanted) {
+    Skeleton out;
+    out.root = root;
+    out.kept.assign(file.joints.size(), false);
+    EndNames end_names(file);
+    std::vector<int> index(file.joints.size(), -1);  // among those kept
+    for (std::size_t j = root; j < file.joints.size(); ++j) {
+        const BvhJoint& joint = file.joints[j];
+        if (j != root && (joint.parent < 0 || !out.kept[joint.parent])) continue;
+        const auto name = joint.end_site ? end_names.next(file.joints[joint.parent].name) : joint.name;
+        if (joint.end_site && (is_placeholder(joint) || !wanted(name))) continue;
+        out.kept[j] = true;
+        index[j] = static_cast<int>(out.topology.joints());
+        out.topology.names.push_back(name);
+        out.topology.parents.push_back(j == root ? -1 : index[joint.parent]);
+    }
+    return out;
 }
 
 std::string described(const Topology& topology, std::size_t joint, bool with_parent) {
@@ -68,22 +98,12 @@ int find_joint(const BvhFile& file, std::string_view name) {
 }
 
 Skeleton skeleton_below(const BvhFile& file, std::size_t root, bool end_sites) {
-    Skeleton out;
-    out.root = root;
-    out.kept.assign(file.joints.size(), false);
-    std::vector<int> index(file.joints.size(), -1);  // among those kept
-    for (std::size_t j = root; j < file.joints.size(); ++j) {
-        const BvhJoint& joint = file.joints[j];
-        const bool below = j == root || (joint.parent >= 0 && out.kept[joint.parent]);
-        if (!below || (joint.end_site && (!end_sites || is_placeholder(joint)))) continue;
-        const int parent = j == root ? -1 : index[joint.parent];
-        out.kept[j] = true;
-        index[j] = static_cast<int>(out.topology.joints());
-        out.topology.names.push_back(joint.end_site ? end_name(file, out.topology, out.topology.names[parent])
-                                                    : joint.name);
-        out.topology.parents.push_back(parent);
-    }
-    return out;
+    return skeleton(file, root, [&](const std::string&) { return end_sites; });
+}
+
+Skeleton skeleton_below(const BvhFile& file, std::size_t root, const Topology& wanted) {
+    const std::unordered_set<std::string> names(wanted.names.begin(), wanted.names.end());
+    return skeleton(file, root, [&](const std::string& name) { return names.contains(name); });
 }
 
 std::string first_difference(const Topology& topology, const Topology& wanted) {

@@ -26,9 +26,14 @@ std::size_t automatic_root(const BvhFile& file);
 /// Index of the joint called `name`; -1 where there is none.
 int find_joint(const BvhFile& file, std::string_view name);
 
-/// End sites, where wanted, become joints called "PARENT end", or "PARENT end 2" for a joint's second; those
-/// that coincide with their parent, as placeholders do, are left out.
+/// The skeleton that an example file gives. End sites, where wanted, become joints called "PARENT end", or
+/// "PARENT end 2" for a joint's second; those that coincide with their parent, as placeholders do, are left
+/// out.
 Skeleton skeleton_below(const BvhFile& file, std::size_t root, bool end_sites);
+
+/// The same, keeping of the end sites only those that `wanted` names: captures of one skeleton often differ
+/// in these.
+Skeleton skeleton_below(const BvhFile& file, std::size_t root, const Topology& wanted);
 
 /// The first difference in words, as in "joint 3 is 'Head', not 'Neck'"; empty where there is none.
 std::string first_difference(const Topology& topology, const Topology& wanted);

@@ -41,10 +41,12 @@ std::unordered_set<std::string> read_missing_list(const std::filesystem::path& p
         const auto line = text.substr(0, text.find('\n'));
         text.remove_prefix(std::min(text.size(), line.size() + 1));
         const auto first = skip_blanks(line.data(), line.data() + line.size());
-        const std::string_view name(first, std::min<std::size_t>(name_length, line.data() + line.size() - first));
+        const std::string_view name(first,
+                                    std::min<std::size_t>(name_length, line.data() + line.size() - first));
         if (parse_ntu_name(name)) names.emplace(name);
     }
-    if (names.empty()) throw Error("{}: no clip names in this missing list; one SsssCcccPpppRrrrAaaa a line", path.string());
+    if (names.empty())
+        throw Error("{}: no clip names in this missing list; one SsssCcccPpppRrrrAaaa a line", path.string());
     return names;
 }
 

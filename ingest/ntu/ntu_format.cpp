@@ -31,7 +31,8 @@ DatasetHeader family(const std::string& name, std::uint32_t persons) {
 
 std::uint32_t label_of(int action) {
     std::uint32_t label = 0;
-    for (int before = 1; before < action; ++before) label += ntu::two_persons(before) == ntu::two_persons(action);
+    for (int before = 1; before < action; ++before)
+        label += ntu::two_persons(before) == ntu::two_persons(action);
     return label;
 }
 
@@ -58,29 +59,35 @@ std::vector<Split> ntu_splits() {
         if (ntu::xsub_train(p)) performers.push_back(std::to_string(p));
     const Condition ntu60{"action", numbers(1, 60)};
     const std::vector<std::string> cameras{"2", "3"}, even = numbers(2, 32, 2);
-    return {{"xsub/train", {{"performer", performers}}},  {"xsub/test", {{"performer", performers, true}}},
-            {"xview/train", {ntu60, {"camera", cameras}}}, {"xview/test", {ntu60, {"camera", cameras, true}}},
-            {"xset/train", {{"setup", even}}},             {"xset/test", {{"setup", even, true}}}};
+    return {{"xsub/train", {{"performer", performers}}},
+            {"xsub/test", {{"performer", performers, true}}},
+            {"xview/train", {ntu60, {"camera", cameras}}},
+            {"xview/test", {ntu60, {"camera", cameras, true}}},
+            {"xset/train", {{"setup", even}}},
+            {"xset/test", {{"setup", even, true}}}};
 }
 
 NtuFormat::NtuFormat(kernels::Smoothing smoothing)
     : smoothing_(smoothing), datasets_{family("ntu-1p", 1), family("ntu-2p", 2)} {}
 
 std::string NtuFormat::settings() const {
-    return fmt::format("ntu: Gaussian smoothing sigma {} radius {} frames", smoothing_.sigma, smoothing_.radius);
+    return fmt::format("ntu: Gaussian smoothing sigma {} radius {} frames", smoothing_.sigma,
+                       smoothing_.radius);
 }
 
 ParsedClip NtuFormat::parse(const RawText& raw) const {
     const auto name = parse_ntu_name(raw.stem);
     if (!name)
-        return Rejection{Rejection::Kind::broken, "the name is not SsssCcccPpppRrrrAaaa with an action from 001 to 120"};
+        return Rejection{Rejection::Kind::broken,
+                         "the name is not SsssCcccPpppRrrrAaaa with an action from 001 to 120"};
     auto read = read_skeleton(raw.text);
     if (auto* rejection = std::get_if<Rejection>(&read)) return std::move(*rejection);
     auto& file = std::get<SkeletonFile>(read);
 
     auto clip = std::make_unique<NtuClip>();
     clip->dataset = ntu::two_persons(name->action) ? 1 : 0;
-    const auto persons = datasets_[clip->dataset].persons, seen = static_cast<std::uint32_t>(file.bodies.size());
+    const auto persons = datasets_[clip->dataset].persons,
+               seen = static_cast<std::uint32_t>(file.bodies.size());
     if (seen == 0) return Rejection{Rejection::Kind::broken, "no body in any frame"};
     if (!keep_most_seen(file.bodies, persons))
         return Rejection{Rejection::Kind::dropped, fmt::format("{} of {} persons seen", seen, persons)};
@@ -101,7 +108,6 @@ kernels::CleanedBatch NtuFormat::clean(kernels::Device& device, std::size_t data
     batch.persons = datasets_[dataset].persons;
     batch.joints = ntu_joints;
     batch.first = {0};
-    std::vector<float> limbs;
     for (const auto& raw : clips) {
         const auto& clip = static_cast<const NtuClip&>(*raw);
         batch.frames.push_back(clip.frames);
@@ -109,11 +115,17 @@ kernels::CleanedBatch NtuFormat::clean(kernels::Device& device, std::size_t data
         for (const auto& body : clip.bodies) {
             for (const auto time : body.times) batch.times.push_back(static_cast<float>(time));
             batch.first.push_back(static_cast<std::uint32_t>(batch.times.size()));
-            limbs.insert(limbs.end(), body.limbs.begin(), body.limbs.end());
         }
     }
     frames = batch.frames;
-    return kernels::clean(device, batch, kernels::Buffer<float>(device, limbs), smoothing_);
+    kernels::Buffer<float> limbs(device, batch.times.size() * ntu_joints * 3);
+    limbs.write_with([&](std::span<float> to) {
+        auto at = to.begin();
+        for (const auto& raw : clips)
+            for (const auto& body : static_cast<const NtuClip&>(*raw).bodies)
+                at = std::copy(body.limbs.begin(), body.limbs.end(), at);
+    });
+    return kernels::clean(device, batch, limbs, smoothing_);
 }
 
 }  // namespace actformer::ingest

@@ -20,41 +20,58 @@ constexpr double farthest = 1e6;  // metres; float32 limbs stay finite and exact
 
 using Joints = std::array<std::array<double, 3>, ntu_joints>;
 
-/// A number as the sensor's software nearly always writes it, [-]D.DDDDDDDD with up to eight digits behind the point, in
-/// `length` characters. False for any other, however sound. Needs 16 readable bytes.
-inline bool read_plain_number(const char* p, int length, double& value) {
-    const bool negative = *p == '-';
-    p += negative;
-    const int places = length - negative - 2;
-    const auto lead = static_cast<std::uint64_t>(p[0] - '0');
-    if (p[1] != '.' || places < 1 || places > 8 || lead > 9) return false;
+/// A product with one of these sets the point and the sign: [minus][digits behind the point].
+constexpr double scales[2][16] = {{1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8},
+                                  {-1, -1e-1, -1e-2, -1e-3, -1e-4, -1e-5, -1e-6, -1e-7, -1e-8}};
+
+/// A number as the sensor's software nearly always writes it, [-]D.DDDDDDDD with one to eight digits behind the point, in `length`
+/// characters. Returns nonzero, and any value, for another, however sound: what speed there is comes of having no branch here.
+/// The value may be off by the last bit of a double, which float32 limbs never see. Needs 10 readable bytes.
+inline std::uint64_t read_plain_number(const char* p, int length, double& value) {
+    const auto minus = (static_cast<std::uint32_t>(static_cast<unsigned char>(*p) ^ '-') - 1U) >> 31;
+    p += minus;
+    const auto places = static_cast<std::uint32_t>(length - 2) - minus;
+    const auto lead = static_cast<std::uint32_t>(static_cast<unsigned char>(*p)) - '0';
     std::uint64_t digits;
     std::memcpy(&digits, p + 2, 8);
-    digits = (digits ^ 0x3030303030303030) << (8 * (8 - places));  // what is no digit of ours leaves at the top
-    if ((digits | (digits + 0x7676767676767676)) & 0x8080808080808080) return false;
-    digits = (digits * 10 + (digits >> 8)) & 0x00FF00FF00FF00FF;
-    digits = (digits * 100 + (digits >> 16)) & 0x0000FFFF0000FFFF;
-    digits = (digits * 10000 + (digits >> 32)) & 0x00000000FFFFFFFF;
-    const std::uint64_t power = detail::whole_powers_of_ten[places];
-    const double magnitude = static_cast<double>(lead * power + digits) / static_cast<double>(power);
-    value = negative ? -magnitude : magnitude;
-    return true;
+    digits = (digits ^ 0x3030303030303030)
+             << ((64 - 8 * places) & 63);  // what is no digit of ours leaves at the top
+    const std::uint64_t odd = ((digits | (digits + 0x7676767676767676)) & 0x8080808080808080) |
+                              static_cast<std::uint64_t>(places - 1 > 7) |
+                              static_cast<std::uint64_t>(lead > 9) | static_cast<std::uint64_t>(p[1] != '.');
+    // Neighbours join into numbers of 2, 4, then 8 digits, the lower byte counting for more.
+    digits = (digits * (1 + (10ULL << 8)) >> 8) & 0x00FF00FF00FF00FF;
+    digits = (digits * (1 + (100ULL << 16)) >> 16) & 0x0000FFFF0000FFFF;
+    digits = digits * (1 + (10000ULL << 32)) >> 32;
+    const auto whole = lead * detail::whole_powers_of_ten[places & 15] + digits;
+    value = static_cast<double>(static_cast<std::int64_t>(whole)) * scales[minus][places & 15];
+    return odd;
 }
 
-/// The first three fields of a line as numbers, found by their blanks all at once. False where they are not plainly
-/// three numbers within 64 characters. Needs 80 readable bytes.
-inline bool read_plain_coordinates(const char* line, std::array<double, 3>& joint) {
-    const auto blank = masks_of_64(line).blank;
-    auto begins = ~blank & (blank << 1 | 1), ends = blank & ~(blank << 1);
-    for (double& value : joint) {
-        if (!begins || !ends) return false;
-        const int begin = std::countr_zero(begins), end = std::countr_zero(ends);
-        if (!read_plain_number(line + begin, end - begin, value) &&
-            (parse_number(line + begin, value) != line + end || !(std::abs(value) < farthest)))
-            return false;
+/// A joint's line as it nearly always is: twelve fields on 65 to 128 characters, the first three plainly numbers. Finds
+/// its end and all its fields at once. False for any other line, however sound.
+inline bool read_plain_joint(const char*& line, const char* end, std::array<double, 3>& joint) {
+    if (end - line < 128) return false;
+    const auto low = masks_of_64(line), high = masks_of_64(line + 64);
+    if (low.newline != 0 || high.newline == 0) return false;
+    const int stop = std::countr_zero(high.newline);
+    auto begins = ~low.blank & (low.blank << 1 | 1), ends = low.blank & ~(low.blank << 1);
+    const auto later = ~high.blank & (high.blank << 1 | low.blank >> 63) & ((std::uint64_t{1} << stop) - 1);
+    if (std::popcount(begins) + std::popcount(later) != joint_fields || std::popcount(ends) < 3) return false;
+    std::array<std::pair<int, int>, 3> fields;
+    std::uint64_t odd = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+        fields[d] = {std::countr_zero(begins), std::countr_zero(ends)};
         begins &= begins - 1;
         ends &= ends - 1;
+        odd |= read_plain_number(line + fields[d].first, fields[d].second - fields[d].first, joint[d]);
     }
+    if (odd)
+        for (std::size_t d = 0; d < 3; ++d)
+            if (parse_number(line + fields[d].first, joint[d]) != line + fields[d].second ||
+                !(std::abs(joint[d]) < farthest))
+                return false;
+    line += 64 + stop + 1;
     return true;
 }
 
@@ -65,7 +82,8 @@ class Reader {
     SkeletonFile read() {
         SkeletonFile file;
         const auto frames = count("frames");
-        if (frames > static_cast<std::uint64_t>(end_ - at_) || frames > std::numeric_limits<std::uint32_t>::max())
+        if (frames > static_cast<std::uint64_t>(end_ - at_) ||
+            frames > std::numeric_limits<std::uint32_t>::max())
             fail("{} frames cannot be in this file: cut short, or not a skeleton file", frames);
         file.frames = static_cast<std::uint32_t>(frames);
         for (std::uint32_t frame = 0; frame < file.frames; ++frame) {
@@ -85,7 +103,9 @@ class Reader {
 
     /// Begins the next line; `what` names what it should hold.
     void begin_line(std::string_view what) {
-        if (at_ >= end_) throw Error("ends after line {}, in frame {}, where {} should be: cut short", line_, place_, what);
+        if (at_ >= end_)
+            throw Error("ends after line {}, in frame {}, where {} should be: cut short", line_, place_,
+                        what);
         ++line_;
         at_ = skip_blanks(at_, end_);
     }
@@ -94,7 +114,8 @@ class Reader {
         int more = 0;
         at_ = end_of_line(at_, end_, more);
         if (fields_so_far + more != fields_wanted) {
-            if (at_ == end_) fail("{} fields, not {}: the file is cut short", fields_so_far + more, fields_wanted);
+            if (at_ == end_)
+                fail("{} fields, not {}: the file is cut short", fields_so_far + more, fields_wanted);
             fail("{} fields, not {}", fields_so_far + more, fields_wanted);
         }
         at_ += at_ < end_;
@@ -102,7 +123,7 @@ class Reader {
 
     std::string_view token() const {
         const char* stop = at_;
-        while (stop < end_ && static_cast<unsigned char>(*stop) > ' ') ++stop;
+        while (stop<end_&& static_cast<unsigned char>(*stop)> ' ') ++stop;
         return {at_, static_cast<std::size_t>(stop - at_)};
     }
 
@@ -110,7 +131,7 @@ class Reader {
         begin_line(what);
         std::uint64_t value = 0;
         const auto [stop, error] = std::from_chars(at_, end_, value);
-        if (error != std::errc() || (stop < end_ && static_cast<unsigned char>(*stop) > ' '))
+        if (error != std::errc() || (stop<end_&& static_cast<unsigned char>(*stop)> ' '))
             fail("{} where the number of {} should be", in_quotes(token()), what);
         at_ = stop;
         end_line(1, 1);
@@ -125,22 +146,25 @@ class Reader {
         const auto joints = count("joints");
         if (joints != ntu_joints) fail("{} joints, not {}", joints, ntu_joints);
         Joints positions;
-        for (auto& joint : positions) read_joint(joint);
+        read_joints(positions);
         store(file, id, frame, positions);
     }
 
-    void read_joint(std::array<double, 3>& joint) {
-        begin_line("a joint");
-        int fields = 0;
-        const char* const stop = end_of_line(at_, end_, fields);
-        if (fields == joint_fields && read_plain_coordinates(at_, joint))
-            at_ = stop + (stop < end_);
-        else
-            read_odd_joint(joint);
+    void read_joints(Joints& positions) {
+        for (auto& joint : positions) {
+            const char* next = at_;
+            if (read_plain_joint(next, end_, joint)) {
+                ++line_;
+                at_ = next;
+            } else {
+                read_odd_joint(joint);
+            }
+        }
     }
 
     /// Field by field, to take what is unusual and to name what is wrong.
     void read_odd_joint(std::array<double, 3>& joint) {
+        begin_line("a joint");
         for (double& value : joint) {
             at_ = skip_blanks(at_, end_);
             const char* stop = at_ < end_ ? parse_number(at_, value) : nullptr;
@@ -154,7 +178,8 @@ class Reader {
     /// Limbs are taken here, in double, so that float32 serves for all that follows.
     void store(SkeletonFile& file, std::string_view id, std::uint32_t frame, const Joints& positions) {
         if (file.bodies.empty()) origin_ = positions[0];
-        auto body = std::find_if(file.bodies.begin(), file.bodies.end(), [&](const Body& b) { return b.id == id; });
+        auto body =
+            std::find_if(file.bodies.begin(), file.bodies.end(), [&](const Body& b) { return b.id == id; });
         if (body == file.bodies.end()) {
             body = file.bodies.insert(body, Body{id, {}, {}});
             const auto expected = std::min<std::size_t>(file.frames - frame, 4096);
@@ -166,10 +191,10 @@ class Reader {
             body->limbs.resize(body->limbs.size() + ntu_joints * 3);
         }
         float* limb = &*(body->limbs.end() - ntu_joints * 3);
-        const auto& parents = ntu25().parents;
         for (std::size_t j = 0; j < ntu_joints; ++j)
             for (std::size_t d = 0; d < 3; ++d, ++limb)
-                *limb = static_cast<float>(positions[j][d] - (j == 0 ? origin_ : positions[parents[j]])[d]);
+                *limb =
+                    static_cast<float>(positions[j][d] - (j == 0 ? origin_ : positions[ntu25_parents[j]])[d]);
     }
 
     void refuse_leftovers() {

@@ -16,8 +16,8 @@ constexpr std::size_t ntu_joints = 25;
 struct Body {
     std::string_view id;               ///< as the file spells it; lives as long as the text
     std::vector<std::uint32_t> times;  ///< frames
-    std::vector<float> limbs;          ///< (detections, 25, 3) metres: child - parent; joint 0 relative to an origin
-                                       ///< that all bodies of the clip share
+    std::vector<float> limbs;  ///< (detections, 25, 3) metres: child - parent; joint 0 relative to an origin
+                               ///< that all bodies of the clip share
 };
 
 struct SkeletonFile {

@@ -30,13 +30,16 @@ inline CharacterMasks masks_of_64_plain(const char* p) {
 inline CharacterMasks masks_of_64(const char* p) {
 #if defined(__AVX512BW__)
     const __m512i text = _mm512_loadu_si512(p);
-    return {_mm512_cmpeq_epi8_mask(text, _mm512_set1_epi8('\n')), _mm512_cmple_epu8_mask(text, _mm512_set1_epi8(' '))};
+    return {_mm512_cmpeq_epi8_mask(text, _mm512_set1_epi8('\n')),
+            _mm512_cmple_epu8_mask(text, _mm512_set1_epi8(' '))};
 #elif defined(__AVX2__)
     CharacterMasks masks{};
     for (int half = 0; half < 2; ++half) {
         const __m256i text = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p + 32 * half));
-        const __m256i low = _mm256_cmpeq_epi8(_mm256_max_epu8(text, _mm256_set1_epi8(' ')), _mm256_set1_epi8(' '));
-        const auto newline = static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_cmpeq_epi8(text, _mm256_set1_epi8('\n'))));
+        const __m256i low =
+            _mm256_cmpeq_epi8(_mm256_max_epu8(text, _mm256_set1_epi8(' ')), _mm256_set1_epi8(' '));
+        const auto newline =
+            static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_cmpeq_epi8(text, _mm256_set1_epi8('\n'))));
         masks.newline |= std::uint64_t{newline} << (32 * half);
         masks.blank |= std::uint64_t{static_cast<std::uint32_t>(_mm256_movemask_epi8(low))} << (32 * half);
     }
@@ -46,7 +49,8 @@ inline CharacterMasks masks_of_64(const char* p) {
     for (int part = 0; part < 4; ++part) {
         const __m128i text = _mm_loadu_si128(reinterpret_cast<const __m128i*>(p + 16 * part));
         const __m128i low = _mm_cmpeq_epi8(_mm_max_epu8(text, _mm_set1_epi8(' ')), _mm_set1_epi8(' '));
-        const auto newline = static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpeq_epi8(text, _mm_set1_epi8('\n'))));
+        const auto newline =
+            static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_cmpeq_epi8(text, _mm_set1_epi8('\n'))));
         masks.newline |= std::uint64_t{newline} << (16 * part);
         masks.blank |= std::uint64_t{static_cast<std::uint32_t>(_mm_movemask_epi8(low))} << (16 * part);
     }
@@ -78,7 +82,9 @@ inline const char* end_of_line(const char* p, const char* end, int& fields) {
     return end;
 }
 
-inline bool is_blank(char c) { return static_cast<unsigned char>(c) <= ' ' && c != '\n'; }
+inline bool is_blank(char c) {
+    return static_cast<unsigned char>(c) <= ' ' && c != '\n';
+}
 
 /// Past blanks, but not past the line's end.
 inline const char* skip_blanks(const char* p, const char* end) {

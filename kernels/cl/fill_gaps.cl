@@ -13,15 +13,15 @@
 
 // One work-item a (person, frame): binary search for the detections around the frame's time.
 kernel void locate(global const float* times, global const uint* first, global const uint* start,
-                   global const float* step, global const uint* owner, global uint2* pair, global float* weight,
-                   uint persons, uint frames) {
+                   global const float* step, global const uint* owner, global uint2* pair,
+                   global float* weight, uint persons, uint frames) {
     const uint person = get_global_id(0), frame = get_global_id(1);
     if (person >= persons || frame >= frames) return;
     const uint clip = owner[frame];
     const float time = (float)(frame - start[clip]) * step[clip];
 
-    uint below = first[clip * persons + person];          // the last detection not after `time`, or the first of all
-    uint above = first[clip * persons + person + 1];      // the one behind it, or the end
+    uint below = first[clip * persons + person];  // the last detection not after `time`, or the first of all
+    uint above = first[clip * persons + person + 1];  // the one behind it, or the end
     const uint end = above;
     while (above - below > 1) {
         const uint middle = below + (above - below) / 2;
@@ -54,7 +54,6 @@ kernel void blend(global const float* limbs, global const uint2* pair, global co
         const float16 a = vload16(0, before);
         vstore16(w == 0 ? a : a + w * (vload16(0, after) - a), 0, out);
     } else {
-        for (uint i = 0; i < 16; ++i)
-            out[i] = i >= valid ? 0.0f : before[i] + w * (after[i] - before[i]);
+        for (uint i = 0; i < 16; ++i) out[i] = i >= valid ? 0.0f : before[i] + w * (after[i] - before[i]);
     }
 }

@@ -77,6 +77,20 @@ static void save_transform(Transform t, global float* at, size_t total) {
     save_vector(t.reach, at + 9 * total, total);
 }
 
+// Sine and cosine of degrees, to 1e-7. Quarter turns come off exactly, as they would not in radians; what is
+// left is within 45 degrees, where short series do.
+static float2 sine_and_cosine(float degrees) {
+    const float quarters = rint(degrees * (1.0f / 90.0f));
+    const float r = fma(quarters, -90.0f, degrees) * RADIANS_PER_DEGREE, r2 = r * r;
+    const float s =
+        r + r * r2 * fma(r2, fma(r2, fma(r2, 2.7557319e-6f, -1.9841270e-4f), 8.3333333e-3f), -0.16666667f);
+    const float c =
+        fma(r2, fma(r2, fma(r2, fma(r2, 2.4801587e-5f, -1.3888889e-3f), 4.1666667e-2f), -0.5f), 1.0f);
+    const int quadrant = (int)quarters & 3;
+    const float2 turned = quadrant & 1 ? (float2)(c, -s) : (float2)(s, c);
+    return quadrant & 2 ? -turned : turned;
+}
+
 // Turns the columns u and v, in the plane that they span, by an angle from u to v.
 static void turn(float3* u, float3* v, float s, float c) {
     const float3 turned = c * *u + s * *v;
@@ -106,14 +120,13 @@ static void rotate_by_channels(Transform* t, global const Joint* joint, global c
     for (uint i = 0; i < joint->channel_count; ++i) {
         const uint channel = (joint->channels >> (3 * i)) & 7;
         if (channel < 3) continue;
-        float c;
-        const float s = sincos(row[i * frames] * RADIANS_PER_DEGREE, &c);
+        const float2 sc = sine_and_cosine(row[i * frames]);
         if (channel == 3)
-            turn(&t->y, &t->z, s, c);
+            turn(&t->y, &t->z, sc.x, sc.y);
         else if (channel == 4)
-            turn(&t->z, &t->x, s, c);
+            turn(&t->z, &t->x, sc.x, sc.y);
         else
-            turn(&t->x, &t->y, s, c);
+            turn(&t->x, &t->y, sc.x, sc.y);
     }
 }
 

@@ -9,8 +9,8 @@
 //   motion  (frames, P, K, 3)   float
 
 // One work-item a (joint, sequence). Sums are compensated (Kahan), so that long clips lose nothing.
-kernel void means(global const float* rows, global const uint* start, global float* bones, global float4* roots,
-                  uint persons, uint joints, uint pitch, uint sequences) {
+kernel void means(global const float* rows, global const uint* start, global float* bones,
+                  global float4* roots, uint persons, uint joints, uint pitch, uint sequences) {
     const uint joint = get_global_id(0), sequence = get_global_id(1);
     if (joint >= joints || sequence >= sequences) return;
     const uint clip = sequence / persons, person = sequence % persons;

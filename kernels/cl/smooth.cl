@@ -30,7 +30,8 @@ kernel void smooth(global const float* taps, global const uint* start, global co
             sum += taps[r] * (column[(size_t)(t - r) * chunks] + column[(size_t)(t + r) * chunks]);
     } else {
         for (int r = 1; r <= (int)radius; ++r)
-            sum += taps[r] * (column[(size_t)mirrored(t - r, n) * chunks] + column[(size_t)mirrored(t + r, n) * chunks]);
+            sum += taps[r] * (column[(size_t)mirrored(t - r, n) * chunks] +
+                              column[(size_t)mirrored(t + r, n) * chunks]);
     }
     out[(size_t)frame * chunks + chunk] = sum;
 }

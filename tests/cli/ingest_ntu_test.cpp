@@ -32,7 +32,9 @@ std::map<std::string, std::string> tree(const fs::path& folder) {
 }
 
 struct IngestNtu : testing::Test {
-    void clip(const std::string& name, const std::string& text) { write_file(dir / ("raw/" + name + ".skeleton"), text); }
+    void clip(const std::string& name, const std::string& text) {
+        write_file(dir / ("raw/" + name + ".skeleton"), text);
+    }
 
     CommandResult ingest(const std::string& more = "") {
         return run_actformer("ingest ntu " + raw() + " -o " + out() + " " + more);
@@ -44,7 +46,8 @@ struct IngestNtu : testing::Test {
     void expect_refused(const CommandResult& result, const std::vector<std::string>& words) {
         EXPECT_EQ(result.exit, 1) << result.output;
         EXPECT_EQ(lines_in(result.output), 1) << result.output;
-        for (const auto& word : words) EXPECT_NE(result.output.find(word), std::string::npos) << word << ": " << result.output;
+        for (const auto& word : words)
+            EXPECT_NE(result.output.find(word), std::string::npos) << word << ": " << result.output;
         EXPECT_FALSE(fs::exists(out()));
         EXPECT_FALSE(fs::exists(out() + ".partial"));
     }
@@ -64,42 +67,51 @@ SeenBody with_gaps(const std::string& id, const std::vector<Pose>& motion, const
 TEST_F(IngestNtu, AgreesWithTheReferenceOnHardClips) {
     if (!has_reference_python()) GTEST_SKIP() << "the reference programs or their Python modules are absent";
     const auto a = random_motion(40, 1), b = random_motion(40, 2), c = random_motion(40, 3);
-    clip("S001C001P001R001A001", skeleton_text(40, {with_gaps("a", a, {0, 1, 2, 10, 17, 18, 19, 20, 38, 39})}));
-    clip("S002C001P001R001A002", skeleton_text(40, {with_gaps("ghost", b, {0, 1, 2, 3, 4, 5}), always_seen("a", a)}));
+    clip("S001C001P001R001A001",
+         skeleton_text(40, {with_gaps("a", a, {0, 1, 2, 10, 17, 18, 19, 20, 38, 39})}));
+    clip("S002C001P001R001A002",
+         skeleton_text(40, {with_gaps("ghost", b, {0, 1, 2, 3, 4, 5}), always_seen("a", a)}));
     clip("S001C002P001R001A061", skeleton_text(40, {with_gaps("first", a, {3}), with_gaps("tied", b, {5})}));
     clip("S001C001P003R001A003", skeleton_text(1, {always_seen("short", random_motion(1, 4))}));
     clip("S001C001P003R001A004", skeleton_text(5, {always_seen("short", random_motion(5, 5))}));
     clip("S001C001P003R001A005", skeleton_text(3, {with_gaps("once", random_motion(3, 6), {0, 2})}));
     clip("S001C001P001R001A050", skeleton_text(40, {always_seen("a", a), with_gaps("b", b, {0, 7, 8, 39})}));
-    clip("S001C001P001R002A060", skeleton_text(40, {with_gaps("c", c, {1, 2, 3, 4}), always_seen("a", a), with_gaps("b", b, {9})}));
-    clip("S001C001P001R001A106", skeleton_text(40, {with_gaps("b", b, {20}), with_gaps("a", a, {21}), with_gaps("c", c, {22})}));
+    clip("S001C001P001R002A060",
+         skeleton_text(40, {with_gaps("c", c, {1, 2, 3, 4}), always_seen("a", a), with_gaps("b", b, {9})}));
+    clip("S001C001P001R001A106",
+         skeleton_text(40, {with_gaps("b", b, {20}), with_gaps("a", a, {21}), with_gaps("c", c, {22})}));
     clip("S001C001P001R001A120", skeleton_text(40, {always_seen("alone", a)}));  // too few persons
     std::string folders = raw();
     if (fs::exists(ACTFORMER_SHARED "/data/ntu_sample"))
-        fs::copy(ACTFORMER_SHARED "/data/ntu_sample", dir / "raw", fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+        fs::copy(ACTFORMER_SHARED "/data/ntu_sample", dir / "raw",
+                 fs::copy_options::recursive | fs::copy_options::overwrite_existing);
 
     ASSERT_EQ(ingest().exit, 0);
     for (const int persons : {1, 2}) {
         const auto name = fmt::format("{}p", persons), ours = (dir / name).string() + ".h5";
         ASSERT_EQ(run_actformer("export " + out() + "/ntu-" + name + " -o " + ours).exit, 0);
         const auto oracle = (dir / name).string() + "-oracle.h5";
-        ASSERT_EQ(run_command(fmt::format("/usr/bin/python3 {}/reference/preprocess.py {} {} --persons {}", ACTFORMER_SHARED,
-                                          folders, oracle, persons)).exit, 0);
+        ASSERT_EQ(run_command(fmt::format("/usr/bin/python3 {}/reference/preprocess.py {} {} --persons {}",
+                                          ACTFORMER_SHARED, folders, oracle, persons))
+                      .exit,
+                  0);
         const MotionsFile mine(ours), theirs(oracle);
         ASSERT_EQ(mine.names(), theirs.names());
         for (const auto& clip : mine.names()) {
             const auto x = mine.read(clip), y = theirs.read(clip);
             ASSERT_EQ(x.frames, y.frames);
             ASSERT_EQ(x.persons, static_cast<unsigned>(persons));
-            for (std::size_t i = 0; i < x.values.size(); ++i) ASSERT_NEAR(x.values[i], y.values[i], 1e-5) << clip << " " << i;
+            for (std::size_t i = 0; i < x.values.size(); ++i)
+                ASSERT_NEAR(x.values[i], y.values[i], 1e-5) << clip << " " << i;
         }
     }
 }
 
 TEST_F(IngestNtu, RenumbersAndLabelsBothFamilies) {
     const std::map<std::string, std::pair<std::string, std::string>> expected{
-        {"A001", {"A001", "ntu-1p"}}, {"A049", {"A049", "ntu-1p"}}, {"A061", {"A050", "ntu-1p"}}, {"A105", {"A094", "ntu-1p"}},
-        {"A050", {"A001", "ntu-2p"}}, {"A060", {"A011", "ntu-2p"}}, {"A106", {"A012", "ntu-2p"}}, {"A120", {"A026", "ntu-2p"}}};
+        {"A001", {"A001", "ntu-1p"}}, {"A049", {"A049", "ntu-1p"}}, {"A061", {"A050", "ntu-1p"}},
+        {"A105", {"A094", "ntu-1p"}}, {"A050", {"A001", "ntu-2p"}}, {"A060", {"A011", "ntu-2p"}},
+        {"A106", {"A012", "ntu-2p"}}, {"A120", {"A026", "ntu-2p"}}};
     const auto a = random_motion(3, 1), b = random_motion(3, 2);
     for (const auto& [action, unused] : expected)
         clip("S001C001P001R001" + action, skeleton_text(3, {always_seen("a", a), always_seen("b", b)}));
@@ -150,10 +162,13 @@ TEST_F(IngestNtu, SkipsBadClipsAndNamesThem) {
     EXPECT_FALSE(fs::exists(out() + "/ntu-2p")) << "no empty dataset";
     const auto csv = read_file(fs::path(out()) / "rejected.csv");
     for (const std::string row :
-         {"A002.skeleton,broken,\"line", "A003.skeleton,broken,line 1: '-1'", "A004.skeleton,broken,\"line 1: 1000000000000000",
-          "A005.skeleton,broken,no body in any frame", "A006.skeleton,broken,an empty file", "A007.skeleton,broken,line 1: '",
-          "A050.skeleton,dropped,1 of 2 persons seen", "A008.skeleton,missing,", "walking.skeleton,broken,the name is not SsssCcccPpppRrrrAaaa",
-          "A001.skeleton,duplicate,a clip of this name came before", "A009.skeleton,broken,cannot be read: No such file"})
+         {"A002.skeleton,broken,\"line", "A003.skeleton,broken,line 1: '-1'",
+          "A004.skeleton,broken,\"line 1: 1000000000000000", "A005.skeleton,broken,no body in any frame",
+          "A006.skeleton,broken,an empty file", "A007.skeleton,broken,line 1: '",
+          "A050.skeleton,dropped,1 of 2 persons seen", "A008.skeleton,missing,",
+          "walking.skeleton,broken,the name is not SsssCcccPpppRrrrAaaa",
+          "A001.skeleton,duplicate,a clip of this name came before",
+          "A009.skeleton,broken,cannot be read: No such file"})
         EXPECT_NE(csv.find(row), std::string::npos) << row << " in\n" << csv;
     EXPECT_EQ(lines_in(csv), 12);
     EXPECT_NE(result.output.find("8 files broken"), std::string::npos) << result.output;
@@ -174,10 +189,12 @@ TEST_F(IngestNtu, RefusesWhatIsWiderThanAClip) {
     clip("S001C001P001R001A001", plain_clip());
     expect_refused(ingest("--missing " + (dir / "none").string()), {"none: cannot be read"});
     expect_refused(ingest("--device no-such-thing"), {"--device no-such-thing: no such OpenCL device"});
-    expect_refused(run_command("OCL_ICD_VENDORS=/nonexistent " ACTFORMER_PROGRAM " ingest ntu " + raw() + " -o " + out()),
+    expect_refused(run_command("OCL_ICD_VENDORS=/nonexistent " ACTFORMER_PROGRAM " ingest ntu " + raw() +
+                               " -o " + out()),
                    {"no OpenCL device", "pocl-opencl-icd"});
     write_file(dir / "broken.zip", "PK\x03\x04 and then nothing");
-    expect_refused(run_actformer("ingest ntu " + (dir / "broken.zip").string() + " -o " + out()), {"broken.zip"});
+    expect_refused(run_actformer("ingest ntu " + (dir / "broken.zip").string() + " -o " + out()),
+                   {"broken.zip"});
 }
 
 TEST_F(IngestNtu, LeavesAnythingElseThatIsThereAlone) {
@@ -206,27 +223,32 @@ TEST_F(IngestNtu, GivesTheSameFromAFolderAndFromAnArchive) {
     const auto tar = run_command("cd " + dir.path().string() + " && tar cJf raw.tar.xz --sort=name raw");
     ASSERT_EQ(tar.exit, 0) << tar.output;
     ASSERT_EQ(ingest().exit, 0);
-    ASSERT_EQ(run_actformer("ingest ntu " + (dir / "raw.tar.xz").string() + " -o " + (dir / "tar").string()).exit, 0);
+    ASSERT_EQ(
+        run_actformer("ingest ntu " + (dir / "raw.tar.xz").string() + " -o " + (dir / "tar").string()).exit,
+        0);
     EXPECT_EQ(read_file(dir / "tar/ntu-1p/dataset.json"), read_file(dir / "out/ntu-1p/dataset.json"));
 }
 
 TEST_F(IngestNtu, EndsInTheSameBytesHoweverOftenItIsKilled) {
     // Enough text for three tranches, so that there is something to go on from.
     const auto text = plain_clip(200, 1);
-    const auto two = skeleton_text(120, {always_seen("a", random_motion(120, 1)), always_seen("b", random_motion(120, 2))});
+    const auto two = skeleton_text(
+        120, {always_seen("a", random_motion(120, 1)), always_seen("b", random_motion(120, 2))});
     write_file(dir / "one", text);
     write_file(dir / "two", two);
     fs::create_directories(raw());
     for (int i = 0; i < 9000; ++i)
-        fs::create_hard_link(dir / (i % 5 == 0 ? "two" : "one"), fmt::format("{}/S{:03}C001P{:03}R001A{:03}.skeleton", raw(),
-                                                                           i / 1000 + 1, i / 10 % 100 + 1, 46 + i % 10));
+        fs::create_hard_link(dir / (i % 5 == 0 ? "two" : "one"),
+                             fmt::format("{}/S{:03}C001P{:03}R001A{:03}.skeleton", raw(), i / 1000 + 1,
+                                         i / 10 % 100 + 1, 46 + i % 10));
     ASSERT_EQ(run_actformer("ingest ntu " + raw() + " -o " + (dir / "calm").string()).exit, 0);
 
     std::mt19937 random(20261122);
     int kills = 0;
     for (;;) {
         const auto seconds = 0.15 + 0.002 * static_cast<double>(random() % 300) + 0.05 * kills;
-        const auto result = run_command(fmt::format("timeout -s KILL {} {} ingest ntu {} -o {}", seconds, ACTFORMER_PROGRAM, raw(), out()));
+        const auto result = run_command(fmt::format("timeout -s KILL {} {} ingest ntu {} -o {}", seconds,
+                                                    ACTFORMER_PROGRAM, raw(), out()));
         if (result.exit == 0) break;
         ASSERT_EQ(result.exit, 137) << result.output;
         EXPECT_FALSE(fs::exists(out()) && !fs::exists(out() + "/ingest.json")) << "half an output";
@@ -260,7 +282,8 @@ TEST_F(IngestNtu, SaysThatTheDiskIsFullAndLeavesNothing) {
     const auto text = plain_clip(100, 1);
     for (int i = 0; i < 200; ++i) clip(fmt::format("S001C001P{:03}R001A001", i), text);
     fs::create_directories(dir / "small");
-    if (mount("none", (dir / "small").c_str(), "tmpfs", 0, "size=1m") != 0) GTEST_SKIP() << "no right to mount a small disk";
+    if (mount("none", (dir / "small").c_str(), "tmpfs", 0, "size=1m") != 0)
+        GTEST_SKIP() << "no right to mount a small disk";
     const auto result = run_actformer("ingest ntu " + raw() + " -o " + (dir / "small/out").string());
     EXPECT_EQ(result.exit, 1);
     EXPECT_EQ(lines_in(result.output), 1) << result.output;
@@ -289,7 +312,8 @@ TEST_F(IngestNtu, FindsFlippedBytes) {
         const auto result = run_actformer("inspect --verify " + out());
         EXPECT_EQ(result.exit, 1);
         EXPECT_NE(result.output.find("shard-00000.h5"), std::string::npos) << result.output;
-        EXPECT_LT(run_actformer("export " + out() + "/ntu-1p -o " + (dir / "x.h5").string()).exit, 2) << "no crash";
+        EXPECT_LT(run_actformer("export " + out() + "/ntu-1p -o " + (dir / "x.h5").string()).exit, 2)
+            << "no crash";
     }
     write_file(shard, whole.substr(0, whole.size() - 1));
     EXPECT_NE(run_actformer("inspect --verify " + out()).output.find("cut short"), std::string::npos);
@@ -302,7 +326,8 @@ TEST_F(IngestNtu, RefusesADamagedDatasetFile) {
     ASSERT_EQ(ingest().exit, 0);
     const auto path = dir / "out/ntu-1p/dataset.json";
     const auto text = read_file(path);
-    for (const std::string& bad : {text.substr(0, text.size() / 2), std::string("[]"), std::string("{}"), std::string()}) {
+    for (const std::string& bad :
+         {text.substr(0, text.size() / 2), std::string("[]"), std::string("{}"), std::string()}) {
         write_file(path, bad);
         const auto result = run_actformer("inspect " + out());
         EXPECT_EQ(result.exit, 1);
@@ -313,7 +338,8 @@ TEST_F(IngestNtu, RefusesADamagedDatasetFile) {
 
 TEST_F(IngestNtu, PrintsJson) {
     clip("S001C001P001R001A001", plain_clip());
-    const auto result = run_command(std::string(ACTFORMER_PROGRAM) + " ingest ntu " + raw() + " -o " + out() + " --json 2>/dev/null");
+    const auto result = run_command(std::string(ACTFORMER_PROGRAM) + " ingest ntu " + raw() + " -o " + out() +
+                                    " --json 2>/dev/null");
     const auto json = nlohmann::json::parse(result.output);
     EXPECT_EQ(json["files"], 1);
     EXPECT_EQ(json["datasets"][0]["clips"], 1);
@@ -330,6 +356,7 @@ TEST_F(IngestNtu, ExportsOneSplitAndNamesTheSplitsThereAre) {
     EXPECT_EQ(MotionsFile(to).names(), std::vector<std::string>{"S001C001P003R001A001"});
     const auto result = run_actformer("export " + out() + "/ntu-1p --split xsub/tset -o " + to + "2");
     EXPECT_EQ(result.exit, 1);
-    EXPECT_NE(result.output.find("no split 'xsub/tset'; there is all, xsub/train"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("no split 'xsub/tset'; there is all, xsub/train"), std::string::npos)
+        << result.output;
     EXPECT_FALSE(fs::exists(to + "2"));
 }

@@ -45,8 +45,10 @@ void expect_right(const Case& c, const kernels::Tiles& tiles, kernels::Device& d
     const test::PlainRecogniser plain(weights);
     for (std::size_t n = 0; n < c.sequences; n += std::max(1U, c.sequences - 1)) {
         const auto truth = plain(&motions[n * numbers], c.frames);
-        EXPECT_LT(relative_error(&got.features[n * weights.features()], truth.features), 2e-5) << "frames " << c.frames;
-        EXPECT_LT(relative_error(&got.logits[n * weights.classes], truth.logits), 2e-5) << "frames " << c.frames;
+        EXPECT_LT(relative_error(&got.features[n * weights.features()], truth.features), 2e-5)
+            << "frames " << c.frames;
+        EXPECT_LT(relative_error(&got.logits[n * weights.classes], truth.logits), 2e-5)
+            << "frames " << c.frames;
     }
 }
 
@@ -55,9 +57,10 @@ void expect_right(const Case& c, const kernels::Tiles& tiles, kernels::Device& d
 TEST(Recogniser, AgreesWithThePlainForwardPass) {
     kernels::Device device;
     const auto tiles = kernels::default_tiles(device.info());
-    for (const auto& c : {Case{1, 64, 3, true, 0.25}, Case{2, 60, 2, true, 0.125}, Case{1, 61, 2, false, 0.125},
-                          Case{2, 17, 5, false, 0.25}, Case{1, 1, 2, true, 0.125}, Case{3, 2, 1, true, 0.2},
-                          Case{1, 18, 9, true, 0.125}, Case{1, 19, 17, false, 0.125}})
+    for (const auto& c :
+         {Case{1, 64, 3, true, 0.25}, Case{2, 60, 2, true, 0.125}, Case{1, 61, 2, false, 0.125},
+          Case{2, 17, 5, false, 0.25}, Case{1, 1, 2, true, 0.125}, Case{3, 2, 1, true, 0.2},
+          Case{1, 18, 9, true, 0.125}, Case{1, 19, 17, false, 0.125}})
         expect_right(c, tiles, device);
 }
 
@@ -68,9 +71,10 @@ TEST(Recogniser, AgreesAtFullWidth) {
 
 TEST(Recogniser, AgreesWithEveryShapeOfTiles) {
     kernels::Device device;
-    for (const auto& tiles : {kernels::Tiles{1, 1, 1, 1, 1, false, 1}, kernels::Tiles{2, 3, 1, 2, 8, true, 2},
-                              kernels::Tiles{4, 8, 1, 1, 64, true, 64}, kernels::Tiles{8, 6, 2, 5, 4, false, 3},
-                              kernels::Tiles{16, 5, 4, 8, 1, false, 4}})
+    for (const auto& tiles :
+         {kernels::Tiles{1, 1, 1, 1, 1, false, 1}, kernels::Tiles{2, 3, 1, 2, 8, true, 2},
+          kernels::Tiles{4, 8, 1, 1, 64, true, 64}, kernels::Tiles{8, 6, 2, 5, 4, false, 3},
+          kernels::Tiles{16, 5, 4, 8, 1, false, 4}})
         expect_right({1, 23, 5, true, 0.125}, tiles, device);
 }
 

@@ -180,6 +180,18 @@ TEST(BvhFormat, TakesOtherOffsetsAndChannelOrders) {
     EXPECT_EQ(refusal(format, replaced(walk, "Zrotation", "Xrotation")), "taken");
 }
 
+TEST(BvhFormat, TheFirstFileSaysWhichEndSitesThereAre) {
+    auto o = options();
+    const auto more = replaced(walk, "OFFSET 0 0 0\n}\n}", "OFFSET 0 0 5\n}\n}"),
+               fewer = replaced(walk, "0 0 10", "0 0 0");
+    EXPECT_EQ(refusal(format_of(o), more), "taken");
+    EXPECT_EQ(refusal(format_of(o), fewer), "taken");
+    o.end_sites = true;
+    EXPECT_EQ(refusal(format_of(o), more), "taken");
+    EXPECT_EQ(refusal(format_of(o), fewer),
+              "another skeleton than the first file's: joint 3 is 'Foot end 2', not 'Foot end'");
+}
+
 TEST(BvhFormat, KeepsToTheClassesListed) {
     auto o = options();
     o.classes = {"walk", "jump"};

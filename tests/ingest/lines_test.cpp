@@ -37,7 +37,8 @@ TEST(Lines, CountsFieldsUpToTheNewlineOfLinesOfAnyLength) {
         std::string line;
         const int fields = static_cast<int>(random() % 20);
         for (int f = 0; f < fields; ++f)
-            line += std::string(f == 0 ? random() % 2 : 1 + random() % 3, ' ') + std::string(1 + random() % 30, 'x');
+            line += std::string(f == 0 ? random() % 2 : 1 + random() % 3, ' ') +
+                    std::string(1 + random() % 30, 'x');
         line += std::string(random() % 3, '\t') + (random() % 2 ? "\r" : "");
         const bool last = random() % 4 == 0;
         const Padded text(last ? line : line + "\nnext line");
@@ -56,6 +57,8 @@ TEST(Lines, StopsAtTheEndOfTheTextWhateverLiesBehind) {
 }
 
 TEST(Lines, SkipsAByteOrderMark) {
-    EXPECT_EQ(without_bom("\xEF\xBB\xBF""12"), "12");
+    EXPECT_EQ(without_bom("\xEF\xBB\xBF"
+                          "12"),
+              "12");
     EXPECT_EQ(without_bom("12"), "12");
 }

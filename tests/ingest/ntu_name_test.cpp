@@ -19,8 +19,9 @@ TEST(NtuName, ReadsTheFiveNumbers) {
 }
 
 TEST(NtuName, RefusesAllElse) {
-    for (const char* name : {"", "S001C001P001R001A000", "S001C001P001R001A121", "s001c001p001r001a001", "S001C001P001R001A01",
-                             "S001C001P001R001A0011", "S001C001P001R0 1A001", "S001P001C001R001A001", "S-01C001P001R001A001"})
+    for (const char* name :
+         {"", "S001C001P001R001A000", "S001C001P001R001A121", "s001c001p001r001a001", "S001C001P001R001A01",
+          "S001C001P001R001A0011", "S001C001P001R0 1A001", "S001P001C001R001A001", "S-01C001P001R001A001"})
         EXPECT_FALSE(parse_ntu_name(name)) << name;
 }
 
@@ -31,9 +32,11 @@ TEST(NtuName, RenumbersAsThePublicTools) {
 
 TEST(MissingList, ComesWithOrWithoutHeaderLinesAndInAnyLineEnds) {
     const TempDir dir;
-    actformer::test::write_file(dir / "list",
-                                "\xEF\xBB\xBF""Missing skeletons:\r\n\r\n  S001C002P005R002A008\r\nS001C002P006R001A008.skeleton\n"
-                                "S001C003P002R001A055");
+    actformer::test::write_file(
+        dir / "list",
+        "\xEF\xBB\xBF"
+        "Missing skeletons:\r\n\r\n  S001C002P005R002A008\r\nS001C002P006R001A008.skeleton\n"
+        "S001C003P002R001A055");
     const auto names = read_missing_list(dir / "list");
     EXPECT_EQ(names.size(), 3U);
     EXPECT_TRUE(names.contains("S001C002P005R002A008"));

@@ -48,8 +48,10 @@ TEST(SkeletonFile, TakesLimbsFromParentToChildToTheLastDigit) {
     for (std::size_t t = 0; t < 7; ++t)
         for (std::size_t j = 0; j < 25; ++j)
             for (std::size_t d = 0; d < 3; ++d) {
-                const double from = j == 0 ? printed(motion[0][0][d]) : printed(motion[t][ntu25().parents[j]][d]);
-                EXPECT_EQ(file.bodies[0].limbs[(t * 25 + j) * 3 + d], static_cast<float>(printed(motion[t][j][d]) - from));
+                const double from =
+                    j == 0 ? printed(motion[0][0][d]) : printed(motion[t][ntu25().parents[j]][d]);
+                EXPECT_EQ(file.bodies[0].limbs[(t * 25 + j) * 3 + d],
+                          static_cast<float>(printed(motion[t][j][d]) - from));
             }
 }
 
@@ -63,11 +65,14 @@ TEST(SkeletonFile, ReadsNumbersHoweverTheyAreWritten) {
         return out.replace(at, out.find(' ', at) - at, x);
     };
     const double root = std::stod(fmt::format("{:.7g}", motion[0][0][0]));
-    for (const std::string x : {"0.5", "-0.5", "+0.5", ".5", "5", "12.25", "1.5e-05", "-1.5E-05", "0.0000001", "0.123456789",
-                                "0.12345678901234567890", "00.5", "1e2", "123456.789", "-0.05349901", "3.785547"})
+    for (const std::string x :
+         {"0.5", "-0.5", "+0.5", ".5", "5", "12.25", "1.5e-05", "-1.5E-05", "0.0000001", "0.123456789",
+          "0.12345678901234567890", "00.5", "1e2", "123456.789", "-0.05349901", "3.785547"})
         EXPECT_EQ(good(line_of_joint_1(x)).bodies[0].limbs[3], static_cast<float>(std::stod(x) - root)) << x;
-    for (const std::string x : {"nan", "-nan", "inf", "1e7", "1e999", "0.5x", "0,5", "--1", "-", ".", "1.2.3", "0x10", "1e"})
-        EXPECT_TRUE(reason(line_of_joint_1(x)).starts_with("line 6: ")) << x << ": " << reason(line_of_joint_1(x));
+    for (const std::string x :
+         {"nan", "-nan", "inf", "1e7", "1e999", "0.5x", "0,5", "--1", "-", ".", "1.2.3", "0x10", "1e"})
+        EXPECT_TRUE(reason(line_of_joint_1(x)).starts_with("line 6: "))
+            << x << ": " << reason(line_of_joint_1(x));
 }
 
 TEST(SkeletonFile, ForgivesLineEndsMarksAndTrailingBlanks) {
@@ -112,8 +117,10 @@ TEST(SkeletonFile, NamesTheLineAndWhatIsWrongWithIt) {
     EXPECT_EQ(reason("hello\n"), "line 1: 'hello' where the number of frames should be");
     EXPECT_EQ(reason(replaced(text, "3\n", "-1\n")), "line 1: '-1' where the number of frames should be");
     EXPECT_EQ(reason(replaced(text, "3\n", "3 frames\n")), "line 1: 2 fields, not 1");
-    EXPECT_TRUE(reason(replaced(text, "3\n", "1000000000000000\n")).starts_with("line 1: 1000000000000000 frames cannot be"));
-    EXPECT_TRUE(reason(replaced(text, "3\n", "99999999999999999999\n")).starts_with("line 1: '99999999999999999999'"));
+    EXPECT_TRUE(reason(replaced(text, "3\n", "1000000000000000\n"))
+                    .starts_with("line 1: 1000000000000000 frames cannot be"));
+    EXPECT_TRUE(reason(replaced(text, "3\n", "99999999999999999999\n"))
+                    .starts_with("line 1: '99999999999999999999'"));
     EXPECT_EQ(reason(replaced(text, "\n1\n", "\n-1\n")), "line 2: '-1' where the number of bodies should be");
     EXPECT_TRUE(reason(replaced(text, "\n1\n", "\n1000000000000000\n")).starts_with("line 30: "));
     EXPECT_EQ(reason(replaced(text, "\n25\n", "\n20\n")), "line 4: 20 joints, not 25");
@@ -122,14 +129,16 @@ TEST(SkeletonFile, NamesTheLineAndWhatIsWrongWithIt) {
     EXPECT_EQ(reason(replaced(text, "0.96 -0.12 2\n", "0.96 -0.12\n")), "line 5: 11 fields, not 12");
     EXPECT_EQ(reason(replaced(text, "0.96 -0.12 2\n", "0.96 -0.12 2 2\n")), "line 5: 13 fields, not 12");
     EXPECT_EQ(reason(text + "0.5\n"), "line 86: text after the last frame that line 1 counts");
-    EXPECT_EQ(reason(replaced(text, "3\n", "4\n")), "ends after line 85, in frame 3, where bodies should be: cut short");
+    EXPECT_EQ(reason(replaced(text, "3\n", "4\n")),
+              "ends after line 85, in frame 3, where bodies should be: cut short");
 }
 
 TEST(SkeletonFile, RejectsEveryTruncation) {
     const auto text = plain_clip(2);
     EXPECT_EQ(reason(text), "accepted");
     for (std::size_t size = 0; size + 2 < text.size(); ++size)
-        EXPECT_NE(reason(text.substr(0, size)), "accepted") << "cut to " << size << " bytes of " << text.size();
+        EXPECT_NE(reason(text.substr(0, size)), "accepted")
+            << "cut to " << size << " bytes of " << text.size();
 }
 
 TEST(SkeletonFile, ShowsNoControlCharactersOfAHostileFile) {

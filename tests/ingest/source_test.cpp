@@ -44,13 +44,16 @@ struct Files : testing::Test {
         write_file(dir / "raw/a/._one.skeleton", "an archiver's companion");
         write_file(dir / "raw/c/empty.skeleton", "");
     }
-    const std::vector<std::pair<std::string, std::string>> expected{{"one", "first"}, {"two", "second"}, {"empty", ""}};
+    const std::vector<std::pair<std::string, std::string>> expected{
+        {"one", "first"}, {"two", "second"}, {"empty", ""}};
     TempDir dir;
 };
 
 }  // namespace
 
-TEST_F(Files, ComeOutOfNestedFoldersInOrder) { EXPECT_EQ(contents({dir / "raw"}), expected); }
+TEST_F(Files, ComeOutOfNestedFoldersInOrder) {
+    EXPECT_EQ(contents({dir / "raw"}), expected);
+}
 
 TEST_F(Files, ComeOutOfArchives) {
     const std::map<std::string, std::string> commands{
@@ -59,7 +62,8 @@ TEST_F(Files, ComeOutOfArchives) {
         {"x.tar.gz", "cd raw && tar czf ../x.tar.gz a b c"},
         {"x.tar.xz", "cd raw && tar cJf ../x.tar.xz a b c"}};
     for (const auto& [name, command] : commands) {
-        if (run_command("cd " + dir.path().string() + " && " + command).exit != 0) GTEST_SKIP() << "cannot run: " << command;
+        if (run_command("cd " + dir.path().string() + " && " + command).exit != 0)
+            GTEST_SKIP() << "cannot run: " << command;
         auto found = contents({dir / name});
         std::sort(found.begin(), found.end());
         auto sorted = expected;
@@ -86,7 +90,8 @@ TEST_F(Files, NamesAreListedWithoutTheirBytes) {
 
 TEST_F(Files, ThatAreNotThereAreNamed) {
     EXPECT_NE(message({dir / "absent"}).find("absent: no such file or folder"), std::string::npos);
-    EXPECT_NE(message({dir / "raw/a/notes.txt"}).find("notes.txt: neither a folder nor an archive"), std::string::npos);
+    EXPECT_NE(message({dir / "raw/a/notes.txt"}).find("notes.txt: neither a folder nor an archive"),
+              std::string::npos);
     fs::create_directories(dir / "nothing");
     EXPECT_NE(message({dir / "nothing"}).find("no .skeleton file there"), std::string::npos);
 }
@@ -99,7 +104,8 @@ TEST_F(Files, InABrokenArchiveStopWithItsName) {
     }
     for (const std::string name : {"x.tar.gz", "x.tar.xz", "x.zip"}) {
         const auto make = name == "x.zip" ? "zip -qr x.zip raw" : "tar caf " + name + " raw";
-        if (run_command("cd " + dir.path().string() + " && " + make).exit != 0) GTEST_SKIP() << "cannot run: " << make;
+        if (run_command("cd " + dir.path().string() + " && " + make).exit != 0)
+            GTEST_SKIP() << "cannot run: " << make;
         const auto whole = read_file(dir / name);
         write_file(dir / name, whole.substr(0, whole.size() / 2));
         const auto what = message({dir / name});

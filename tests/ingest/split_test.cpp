@@ -37,7 +37,8 @@ TEST(NtuSplits, FollowTheProtocols) {
     EXPECT_TRUE(holds("xsub/test", {"1", "1", "3", "1", "1"}));
     EXPECT_TRUE(holds("xview/train", {"1", "3", "3", "1", "60"}));
     EXPECT_TRUE(holds("xview/test", {"1", "1", "3", "1", "60"}));
-    for (const auto* part : {"xview/train", "xview/test"}) EXPECT_FALSE(holds(part, {"1", "2", "3", "1", "61"}));
+    for (const auto* part : {"xview/train", "xview/test"})
+        EXPECT_FALSE(holds(part, {"1", "2", "3", "1", "61"}));
     EXPECT_TRUE(holds("xset/train", {"32", "1", "3", "1", "1"}));
     EXPECT_TRUE(holds("xset/test", {"31", "1", "3", "1", "1"}));
 }

@@ -16,8 +16,8 @@ struct Sample {
     ClipBatch batch;
     std::vector<float> limbs;
 
-    Sample(std::uint32_t persons, std::uint32_t joints, const std::vector<std::uint32_t>& frames, unsigned seed,
-           float step = 1) {
+    Sample(std::uint32_t persons, std::uint32_t joints, const std::vector<std::uint32_t>& frames,
+           unsigned seed, float step = 1) {
         std::mt19937 random(seed);
         std::normal_distribution<float> normal;
         batch.persons = persons;
@@ -102,14 +102,16 @@ PlainResult plain_normalise(const Sample& s, const Rows& rows) {
         double mean[3] = {};
         std::vector<double> bones(persons * joints, 0.0);
         for (std::size_t row = begin * persons; row < (begin + frames) * persons; ++row) {
-            for (std::size_t d = 0; d < 3; ++d) mean[d] += rows[row][d] / static_cast<double>(frames * persons);
+            for (std::size_t d = 0; d < 3; ++d)
+                mean[d] += rows[row][d] / static_cast<double>(frames * persons);
             for (std::size_t k = 1; k < joints; ++k)
                 bones[row % persons * joints + k] +=
                     std::hypot(rows[row][3 * k], rows[row][3 * k + 1], rows[row][3 * k + 2]) / frames;
         }
         for (std::size_t row = begin * persons; row < (begin + frames) * persons; ++row)
             for (std::size_t k = 0; k < joints; ++k) {
-                const double length = std::hypot(rows[row][3 * k], rows[row][3 * k + 1], rows[row][3 * k + 2]) + 1e-4;
+                const double length =
+                    std::hypot(rows[row][3 * k], rows[row][3 * k + 1], rows[row][3 * k + 2]) + 1e-4;
                 for (std::size_t d = 0; d < 3; ++d)
                     out.motion.push_back(k == 0 ? rows[row][d] - mean[d] : rows[row][3 * k + d] / length);
             }
@@ -173,10 +175,12 @@ TEST(Cleaning, SmoothsWithMirroredEdgesHoweverShortTheClip) {
     const auto filled = fill_gaps(device, s.batch, kernels::Buffer<float>(device, s.limbs));
     for (const auto& [sigma, radius] : {std::pair(3.0F, 12U), {0.7F, 3U}, {10.0F, 40U}}) {
         const auto rows = smooth(device, s.batch, filled, {sigma, radius});
-        EXPECT_LT(largest_difference(flat(rows, 75), flat(plain_smooth(s, plain_fill(s), sigma, static_cast<int>(radius)))),
+        EXPECT_LT(largest_difference(flat(rows, 75),
+                                     flat(plain_smooth(s, plain_fill(s), sigma, static_cast<int>(radius)))),
                   2e-6);
     }
-    EXPECT_EQ(flat(smooth(device, s.batch, filled, {0, 12}), 75), flat(filled, 75)) << "sigma 0 changes nothing";
+    EXPECT_EQ(flat(smooth(device, s.batch, filled, {0, 12}), 75), flat(filled, 75))
+        << "sigma 0 changes nothing";
 }
 
 TEST(Cleaning, CleansAsThePlainComputationDoes) {

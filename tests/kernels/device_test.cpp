@@ -83,7 +83,8 @@ TEST(Device, RunsAKernelFromSourceOverAnyRange) {
 TEST(Device, ShowsTheBuildLogOfASourceThatDoesNotCompile) {
     kernels::Device device;
     try {
-        device.kernel_from("kernel void broken(global float* x) { x[0] = no_such_thing; }", "broken.cl", "broken");
+        device.kernel_from("kernel void broken(global float* x) { x[0] = no_such_thing; }", "broken.cl",
+                           "broken");
         FAIL();
     } catch (const Error& e) {
         EXPECT_NE(std::string(e.what()).find("broken.cl"), std::string::npos);

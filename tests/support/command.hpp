@@ -30,7 +30,9 @@ inline CommandResult run_actformer(const std::string& arguments) {
     return run_command(std::string(ACTFORMER_PROGRAM) + " " + arguments);
 }
 
-inline long lines_in(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+inline long lines_in(const std::string& text) {
+    return std::count(text.begin(), text.end(), '\n');
+}
 
 /// Debian's own Python with the modules that the reference programs need.
 inline bool has_reference_python() {

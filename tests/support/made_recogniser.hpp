@@ -11,15 +11,17 @@
 namespace actformer::test {
 
 /// The edges that the recogniser uses on NTU's 25 joints; the centre is 20.
-inline const std::vector<int> ntu_edges{-1, 0,  20, 2, 20, 4,  5,  6,  20, 8,  9,  10, 0,
-                                        12, 13, 14, 0, 16, 17, 18, 1,  22, 7,  24, 11};
+inline const std::vector<int> ntu_edges{-1, 0,  20, 2, 20, 4,  5,  6, 20, 8, 9,  10, 0,
+                                        12, 13, 14, 0, 16, 17, 18, 1, 22, 7, 24, 11};
 
 /// A 21-joint tree with the root as centre, joints out of order.
-inline const std::vector<int> small_tree{-1, 0, 1, 2, 3, 0, 5, 6, 7, 0, 9, 11, 9, 11, 13, 14, 9, 16, 17, 20, 18};
+inline const std::vector<int> small_tree{-1, 0, 1,  2,  3,  0, 5,  6,  7,  0, 9,
+                                         11, 9, 11, 13, 14, 9, 16, 17, 20, 18};
 
 /// `width` scales the 64, 128 and 256 channels of the layers.
-inline eval::Weights made_recogniser(std::uint32_t channels, std::uint32_t classes, const std::vector<int>& parents,
-                                     std::uint32_t center, double width, unsigned seed) {
+inline eval::Weights made_recogniser(std::uint32_t channels, std::uint32_t classes,
+                                     const std::vector<int>& parents, std::uint32_t center, double width,
+                                     unsigned seed) {
     eval::Weights w;
     w.source = "made";
     w.channels = channels;
@@ -36,11 +38,14 @@ inline eval::Weights made_recogniser(std::uint32_t channels, std::uint32_t class
         for (std::size_t d = 0; d < shape.size(); ++d) count *= shape[d], fan_in *= d > 0 ? shape[d] : 1;
         std::vector<float> values(count);
         for (auto& v : values) {
-            if (name.ends_with("running_var")) v = uniform(random) + 0.5F;
+            if (name.ends_with("running_var"))
+                v = uniform(random) + 0.5F;
             else if (name.starts_with("edge_importance") || (name.ends_with(".weight") && shape.size() == 1))
                 v = 1 + 0.1F * normal(random);
-            else if (shape.size() == 1) v = 0.1F * normal(random);
-            else v = normal(random) * std::sqrt(2.0F / static_cast<float>(fan_in));
+            else if (shape.size() == 1)
+                v = 0.1F * normal(random);
+            else
+                v = normal(random) * std::sqrt(2.0F / static_cast<float>(fan_in));
         }
         w.tensors[name] = values;
     }
@@ -87,7 +92,8 @@ class PlainRecogniser {
         }
         for (std::size_t o = 0; o < w_.classes; ++o) {
             double sum = w_.at("fcn.bias")[o];
-            for (std::size_t c = 0; c < features; ++c) sum += w_.at("fcn.weight")[o * features + c] * out.features[c];
+            for (std::size_t c = 0; c < features; ++c)
+                sum += w_.at("fcn.weight")[o * features + c] * out.features[c];
             out.logits.push_back(sum);
         }
         return out;
@@ -104,7 +110,8 @@ class PlainRecogniser {
     std::vector<double> layer(std::size_t i, const std::vector<double>& x, std::size_t& frames) const {
         const auto prefix = eval::layer_prefix(i);
         const std::size_t joints = w_.joints(), in = w_.width_before(i), out = w_.widths[i];
-        const std::size_t stride = i == 4 || i == 7 ? 2 : 1, after = (frames - 1) / stride + 1, plane = frames * joints;
+        const std::size_t stride = i == 4 || i == 7 ? 2 : 1, after = (frames - 1) / stride + 1,
+                          plane = frames * joints;
         const auto &conv = w_.at(prefix + "gcn.conv.weight"), &conv_bias = w_.at(prefix + "gcn.conv.bias");
         const auto& importance = w_.at("edge_importance." + std::to_string(i));
 
@@ -113,12 +120,15 @@ class PlainRecogniser {
             for (std::size_t o = 0; o < out; ++o) {
                 std::vector<double> z(plane, conv_bias[part * out + o]);
                 for (std::size_t c = 0; c < in; ++c)
-                    for (std::size_t j = 0; j < plane; ++j) z[j] += conv[(part * out + o) * in + c] * x[c * plane + j];
+                    for (std::size_t j = 0; j < plane; ++j)
+                        z[j] += conv[(part * out + o) * in + c] * x[c * plane + j];
                 for (std::size_t v = 0; v < joints; ++v)
                     for (std::size_t w = 0; w < joints; ++w) {
-                        const double a = parts_[part][v * joints + w] * importance[(part * joints + v) * joints + w];
+                        const double a =
+                            parts_[part][v * joints + w] * importance[(part * joints + v) * joints + w];
                         if (a == 0) continue;
-                        for (std::size_t t = 0; t < frames; ++t) y[o * plane + t * joints + w] += a * z[t * joints + v];
+                        for (std::size_t t = 0; t < frames; ++t)
+                            y[o * plane + t * joints + w] += a * z[t * joints + v];
                     }
             }
         for (std::size_t o = 0; o < out; ++o)
@@ -129,7 +139,8 @@ class PlainRecogniser {
         for (std::size_t o = 0; o < out; ++o)
             for (std::size_t t = 0; t < after; ++t)
                 for (std::size_t k = 0; k < joints; ++k) {
-                    const double value = norm(prefix + "tcn.3.", o, convolved(i, y, frames, o, t * stride, k));
+                    const double value =
+                        norm(prefix + "tcn.3.", o, convolved(i, y, frames, o, t * stride, k));
                     result[(o * after + t) * joints + k] =
                         std::max(0.0, value + residual(i, x, frames, o, t * stride, k));
                 }
@@ -137,8 +148,8 @@ class PlainRecogniser {
         return result;
     }
 
-    double convolved(std::size_t i, const std::vector<double>& y, std::size_t frames, std::size_t o, std::size_t t,
-                     std::size_t k) const {
+    double convolved(std::size_t i, const std::vector<double>& y, std::size_t frames, std::size_t o,
+                     std::size_t t, std::size_t k) const {
         const auto prefix = eval::layer_prefix(i);
         const auto& weight = w_.at(prefix + "tcn.2.weight");
         const std::size_t out = w_.widths[i], joints = w_.joints();
@@ -151,11 +162,12 @@ class PlainRecogniser {
         return sum;
     }
 
-    double residual(std::size_t i, const std::vector<double>& x, std::size_t frames, std::size_t o, std::size_t t,
-                    std::size_t k) const {
+    double residual(std::size_t i, const std::vector<double>& x, std::size_t frames, std::size_t o,
+                    std::size_t t, std::size_t k) const {
         const std::size_t in = w_.width_before(i), joints = w_.joints();
         if (i == 0) return 0;
-        if (!w_.tensors.contains(eval::layer_prefix(i) + "residual.0.weight")) return x[(o * frames + t) * joints + k];
+        if (!w_.tensors.contains(eval::layer_prefix(i) + "residual.0.weight"))
+            return x[(o * frames + t) * joints + k];
         const auto& weight = w_.at(eval::layer_prefix(i) + "residual.0.weight");
         double sum = w_.at(eval::layer_prefix(i) + "residual.0.bias")[o];
         for (std::size_t c = 0; c < in; ++c) sum += weight[o * in + c] * x[(c * frames + t) * joints + k];

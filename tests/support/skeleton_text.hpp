@@ -27,8 +27,10 @@ inline std::vector<Pose> random_motion(int frames, unsigned seed) {
     std::vector<Pose> motion(frames);
     for (std::size_t j = 0; j < 25; ++j)
         for (std::size_t d = 0; d < 3; ++d) {
-            const double at = (d == 2 ? 3 : 0) + uniform() - 0.5, swing = 0.3 * uniform(), speed = 0.3 * uniform();
-            for (int t = 0; t < frames; ++t) motion[t][j][d] = at + swing * std::sin(speed * t) + 0.01 * uniform();
+            const double at = (d == 2 ? 3 : 0) + uniform() - 0.5, swing = 0.3 * uniform(),
+                         speed = 0.3 * uniform();
+            for (int t = 0; t < frames; ++t)
+                motion[t][j][d] = at + swing * std::sin(speed * t) + 0.01 * uniform();
         }
     return motion;
 }
@@ -37,7 +39,8 @@ inline SeenBody always_seen(const std::string& id, const std::vector<Pose>& moti
     return {id, {motion.begin(), motion.end()}};
 }
 
-inline std::string skeleton_text(int frames, const std::vector<SeenBody>& bodies, const std::string& newline = "\n") {
+inline std::string skeleton_text(int frames, const std::vector<SeenBody>& bodies,
+                                 const std::string& newline = "\n") {
     std::string text = std::to_string(frames) + newline;
     for (int t = 0; t < frames; ++t) {
         int seen = 0;
@@ -47,8 +50,9 @@ inline std::string skeleton_text(int frames, const std::vector<SeenBody>& bodies
             if (!body.frames[t]) continue;
             text += body.id + " 0 1 1 1 1 0 0.02764709 0.05745083 2" + newline + "25" + newline;
             for (const auto& joint : *body.frames[t])
-                text += fmt::format("{:.7g} {:.7g} {:.7g} 277.4 191.8 1036.2 519.1 -0.2059419 0.053 0.96 -0.12 2{}", joint[0],
-                                    joint[1], joint[2], newline);
+                text += fmt::format(
+                    "{:.7g} {:.7g} {:.7g} 277.4 191.8 1036.2 519.1 -0.2059419 0.053 0.96 -0.12 2{}", joint[0],
+                    joint[1], joint[2], newline);
         }
     }
     return text;

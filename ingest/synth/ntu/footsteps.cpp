@@ -89,7 +89,7 @@ Foot stepping(const Walk& w, const std::vector<Place>& places, const Bearing& be
 Gait walk(const std::vector<Place>& places, const Bearing& bearing, double leg) {
     Gait gait;
     gait.swing.assign(places.size(), 0);
-    const auto all = walks(places, 0.68 * leg);
+    const auto all = walks(places, 0.58 * leg);
     auto next = all.begin();
     for (std::size_t f = 0; f < places.size(); ++f) {
         while (next != all.end() && f > next->last) ++next;

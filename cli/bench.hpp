@@ -1,0 +1,10 @@
+// The benchmarks of `actformer bench`, one file each.
+#pragma once
+
+#include "cli/commands.hpp"
+
+namespace actformer::cli {
+
+void add_bench_ingest(CLI::App& bench);
+
+}  // namespace actformer::cli

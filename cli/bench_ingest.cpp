@@ -1,0 +1,241 @@
+// actformer bench ingest: clips a second from raw text to shards, beside the reference program on the same clips.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/bench.hpp"
+#include "cli/format.hpp"
+#include "cli/progress.hpp"
+#include "ingest/ntu/actions.hpp"
+#include "ingest/ntu/ntu_format.hpp"
+#include "ingest/pipeline.hpp"
+#include "ingest/synth/ntu/ntu.hpp"
+#include "kernels/error.hpp"
+
+namespace actformer::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::uint64_t clips = 4000, many = 0;
+    std::string sample = "../shared/data/ntu_sample", peer = "../shared/reference/preprocess.py";
+    std::string python = "/usr/bin/python3", folder, device;
+    int repeats = 3;
+    unsigned threads = 0;
+    bool json = false;
+};
+
+/// A folder of its own, gone when the benchmark ends.
+struct Scratch {
+    explicit Scratch(const std::string& where) {
+        auto name =
+            (fs::path(where.empty() ? fs::temp_directory_path() : fs::path(where)) / "actformer-bench-XXXXXX")
+                .string();
+        if (!mkdtemp(name.data()))
+            throw Error("{}: no folder can be made there; choose another --folder", name);
+        path = name;
+    }
+    ~Scratch() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    fs::path path;
+};
+
+std::vector<int> one_person_actions() {
+    std::vector<int> actions;
+    for (int a = 1; a <= ingest::ntu::actions; ++a)
+        if (!ingest::ntu::two_persons(a)) actions.push_back(a);
+    return actions;
+}
+
+/// A name that no synthetic clip has: setups beyond 32.
+std::string copy_name(std::uint64_t i) {
+    return fmt::format("S{:03}C{:03}P{:03}R001A{:03}.skeleton", 100 + i / 49 / 3 / 900, 1 + i / 49 % 3,
+                       i / 49 / 3 % 900, 1 + i % 49);
+}
+
+/// Half of the clips are copies of the real sample where it is at hand, the others synthetic; all of one person.
+void make_raw(const Options& options, const fs::path& raw) {
+    std::optional<fs::path> real;
+    if (fs::is_directory(options.sample))
+        for (const auto& entry : fs::directory_iterator(options.sample))
+            if (entry.path().extension() == ".skeleton") real = entry.path();
+    const auto copies = real ? options.clips / 2 : 0;
+    fs::create_directories(raw);
+    for (std::uint64_t i = 0; i < copies; ++i) fs::copy_file(*real, raw / copy_name(i));
+    ingest::synth::NtuOptions synth;
+    synth.folder = raw;
+    synth.clips = options.clips - copies;
+    synth.actions = one_person_actions();
+    ingest::synth::synthesise_ntu(synth);
+    if (!options.json)
+        fmt::print("{} copies of {}, {} synthetic clips\n", grouped(copies),
+                   real ? real->filename().string() : "a real clip (none at hand)",
+                   grouped(options.clips - copies));
+}
+
+ingest::IngestSummary run_ours(const Options& options, const fs::path& raw, const fs::path& out,
+                               kernels::Device& device) {
+    fs::remove_all(out);
+    ingest::IngestRequest request;
+    request.raw = {raw};
+    request.out = out;
+    request.threads = options.threads;
+    return ingest::ingest(request, ingest::NtuFormat(), device);
+}
+
+double cpu_seconds() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// A run and the processor time it took, of all threads together.
+struct Measured {
+    ingest::IngestSummary summary;
+    double cpu = 0;
+};
+
+Measured best_of_ours(const Options& options, const Scratch& scratch, kernels::Device& device) {
+    Measured best;
+    for (int i = 0; i <= options.repeats; ++i) {  // the first run warms the kernels and the page cache
+        const auto before = cpu_seconds();
+        const auto summary = run_ours(options, scratch.path / "raw", scratch.path / "out", device);
+        if (i > 0 && (best.cpu == 0 || summary.seconds.wall < best.summary.seconds.wall))
+            best = {summary, cpu_seconds() - before};
+    }
+    return best;
+}
+
+/// Clips a second of the reference program, by its own clock, which leaves out Python's start.
+std::optional<double> run_peer(const Options& options, const Scratch& scratch) {
+    if (!fs::exists(options.peer)) return {};
+    const auto line = fmt::format("'{}' '{}' '{}' '{}' 2>&1", options.python, options.peer,
+                                  (scratch.path / "raw").string(), (scratch.path / "peer.h5").string());
+    std::string said;
+    FILE* pipe = ::popen(line.c_str(), "r");
+    for (int c; pipe && (c = std::fgetc(pipe)) != EOF;) said += static_cast<char>(c);
+    double clips = 0, seconds = 0;
+    if (!pipe || ::pclose(pipe) != 0 || std::sscanf(said.c_str(), "%lf %lf", &clips, &seconds) != 2)
+        throw Error("{} failed: {}", line, said.substr(0, said.find('\n')));
+    return clips / seconds;
+}
+
+double peak_memory_mib() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+/// Links the clips over and over under new names, so that memory can be watched with more clips than a disk has room for.
+ingest::IngestSummary run_many(const Options& options, const Scratch& scratch, kernels::Device& device) {
+    const auto many = scratch.path / "many";
+    fs::create_directories(many);
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(scratch.path / "raw"))
+        if (entry.path().extension() == ".skeleton") files.push_back(entry.path());
+    for (std::uint64_t i = 0; i < options.many; ++i)
+        fs::create_hard_link(files[i % files.size()], many / copy_name(i));
+    return run_ours(options, many, scratch.path / "out", device);
+}
+
+double rate(const ingest::IngestSummary& s) {
+    return static_cast<double>(s.files) / s.seconds.wall;
+}
+
+nlohmann::ordered_json to_json(const ingest::IngestSummary& s) {
+    const auto& t = s.seconds;
+    return {
+        {"clips", s.files},
+        {"text_bytes", s.text_bytes},
+        {"wall_seconds", t.wall},
+        {"clips_a_second", rate(s)},
+        {"gigabytes_a_second", static_cast<double>(s.text_bytes) / t.wall / 1e9},
+        {"stage_seconds",
+         {{"walk", t.walk}, {"read", t.read}, {"parse", t.parse}, {"clean", t.clean}, {"write", t.write}}}};
+}
+
+void print_text(const Measured& ours, std::optional<double> peer) {
+    const auto& s = ours.summary;
+    const auto& t = s.seconds;
+    fmt::print("actformer ingest   {:>8.0f} clips/s   {:.2f} GB/s of text   ({} clips, {} in {:.2f} s)\n",
+               rate(s), static_cast<double>(s.text_bytes) / t.wall / 1e9, grouped(s.files),
+               bytes(s.text_bytes), t.wall);
+    if (peer)
+        fmt::print("reference          {:>8.0f} clips/s\nratio              {:>8.1f}\n", *peer,
+                   rate(s) / *peer);
+    else
+        fmt::print("reference          not at hand; name it with --peer\n");
+    fmt::print("processor time     {:>8.2f} s, {:.2f} cores busy, {:.0f} us a clip\n", ours.cpu,
+               ours.cpu / t.wall, 1e6 * ours.cpu / static_cast<double>(s.files));
+    fmt::print("where the time goes, in seconds of a thread, waits included (stages overlap):\n");
+    const std::pair<const char*, double> stages[]{{"list the source", t.walk},
+                                                  {"read files", t.read},
+                                                  {"parse text, checksum", t.parse},
+                                                  {"clean on the device", t.clean},
+                                                  {"write shards", t.write}};
+    for (const auto& [name, seconds] : stages)
+        fmt::print("  {:<22}{:>7.3f}  {}\n", name, seconds,
+                   std::string(static_cast<std::size_t>(40 * seconds / (t.wall * 2)), '#'));
+}
+
+void run(const Options& options) {
+    kernels::Device device(options.device);
+    const Scratch scratch(options.folder);
+    make_raw(options, scratch.path / "raw");
+    const auto ours = best_of_ours(options, scratch, device);
+    const auto peer = run_peer(options, scratch);
+    auto json = to_json(ours.summary);
+    json["cpu_seconds"] = ours.cpu;
+    if (peer) json["peer_clips_a_second"] = *peer, json["ratio"] = rate(ours.summary) / *peer;
+    if (!options.json) print_text(ours, peer);
+    if (options.many) {
+        const auto many = run_many(options, scratch, device);
+        json["many"] = to_json(many);
+        json["many"]["peak_memory_mib"] = peak_memory_mib();
+        if (!options.json)
+            fmt::print("{} clips in {}: {:.0f} clips/s, {:.0f} MiB of memory at most\n", grouped(many.files),
+                       duration(many.seconds.wall), rate(many), peak_memory_mib());
+    }
+    if (options.json) fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace
+
+void add_bench_ingest(CLI::App& bench) {
+    auto options = std::make_shared<Options>();
+    auto* command =
+        bench.add_subcommand("ingest", "From raw NTU text to shards, beside the reference program");
+    command->add_option("--clips", options->clips, "Clips, half of them copies of the sample")
+        ->capture_default_str();
+    command->add_option("--many", options->many, "Also ingest so many linked clips, to watch the memory");
+    command->add_option("--sample", options->sample, "Folder with a real .skeleton file")
+        ->capture_default_str();
+    command->add_option("--peer", options->peer, "The reference program")->capture_default_str();
+    command->add_option("--python", options->python, "Python for the reference program")
+        ->capture_default_str();
+    command->add_option("--folder", options->folder,
+                        "Where the clips are put meanwhile (default: the system's)");
+    command->add_option("--repeats", options->repeats, "Runs, of which the best counts")
+        ->check(CLI::Range(1, 100))
+        ->capture_default_str();
+    command->add_option("--device", options->device, "OpenCL device: a number, gpu, cpu, or part of a name");
+    command->add_option("--threads", options->threads, "Threads that read and parse (default: all cores)");
+    command->add_flag("--json", options->json, "Print JSON");
+    examples(command, "  actformer bench ingest\n  actformer bench ingest --many 100000\n");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace actformer::cli

@@ -1,0 +1,14 @@
+// What every program of actformer's shares: parsing, and one line for whatever goes wrong.
+#pragma once
+
+#include <functional>
+
+#include "cli/commands.hpp"
+
+namespace actformer::cli {
+
+/// Parses and runs `actformer` with the commands that `add_commands` gives it. Exit code 0, or 1 with one line on
+/// standard error.
+int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands);
+
+}  // namespace actformer::cli
