@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
         add_inspect(app);
         add_export(app);
         for (const auto& sub : subprograms) app.add_subcommand(sub.command, sub.description);
+        add_features(app);
         add_bench(app);
     });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "ingest/hdf5.hpp"
 #include "kernels/error.hpp"
@@ -127,5 +128,47 @@ Weights read_weights(const std::filesystem::path& file_path) {
     for (const auto& [name, shape] : shapes) weights.tensors[name] = read_tensor(file, path, name, shape);
     return weights;
 }
+
+void write_weights(const std::filesystem::path& path, const Weights& weights) {
+    ingest::hdf5::Writer file(path);
+    for (const auto& [name, shape] : tensor_shapes(weights))
+        file.write<float>(name, ingest::hdf5::Shape(shape.begin(), shape.end()), weights.at(name));
+    file.attribute("channels", std::int64_t{weights.channels});
+    file.attribute("classes", std::int64_t{weights.classes});
+    file.attribute("parents", std::vector<std::int64_t>(weights.parents.begin(), weights.parents.end()));
+    file.attribute("center", std::int64_t{weights.center});
+    if (!file.finish()) throw Error("{}: cannot be written; is there space left?", path.string());
+}
+
+Weights random_weights(std::uint32_t channels, std::uint32_t classes, const std::vector<int>& parents,
+                       std::uint32_t center, double width, std::uint32_t seed) {
+    Weights weights;
+    weights.source = "random weights";
+    weights.channels = channels;
+    weights.classes = classes;
+    weights.parents = parents;
+    weights.center = center;
+    for (std::size_t i = 0; i < stgcn_layers; ++i)
+        weights.widths[i] = static_cast<std::uint32_t>(std::lround(width * (i < 4 ? 64 : i < 7 ? 128 : 256)));
+    std::mt19937 random(seed);
+    for (const auto& [name, shape] : tensor_shapes(weights)) {
+        double mean = 0, deviation = 0.1;
+        if (name.ends_with("running_var") || name.starts_with("edge_importance") ||
+            (name.ends_with(".weight") && shape.size() == 1))
+            mean = 1;
+        else if (shape.size() > 1)
+            deviation = std::sqrt(2.0 / static_cast<double>(shape[1] * shape[2] * shape[3]));
+        std::size_t count = 1;
+        for (const auto extent : shape) count *= extent;
+        std::normal_distribution<float> normal(static_cast<float>(mean), static_cast<float>(deviation));
+        std::vector<float> values(count);
+        for (auto& value : values) value = normal(random);
+        weights.tensors[name] = std::move(values);
+    }
+    return weights;
+}
+
+const std::vector<int> ntu_edges{-1, 0,  20, 2, 20, 4,  5,  6, 20, 8, 9,  10, 0,
+                                 12, 13, 14, 0, 16, 17, 18, 1, 22, 7, 24, 11};
 
 }  // namespace actformer::eval

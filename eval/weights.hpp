@@ -46,4 +46,15 @@ std::map<std::string, std::vector<std::uint64_t>> tensor_shapes(const Weights& w
 /// finite, or no variance; for parents that are no tree, and a centre outside it.
 Weights read_weights(const std::filesystem::path& path);
 
+/// Throws Error where the file cannot be written.
+void write_weights(const std::filesystem::path& path, const Weights& weights);
+
+/// Well-conditioned random weights, for benchmarks and tests: the layers have 64, 128 and 256 channels times `width`, and
+/// the same seed gives the same weights.
+Weights random_weights(std::uint32_t channels, std::uint32_t classes, const std::vector<int>& parents,
+                       std::uint32_t center, double width, std::uint32_t seed);
+
+/// The edges of the recogniser on NTU's 25 joints, whose hands run tip, thumb, hand, unlike the limbs. The centre is 20.
+extern const std::vector<int> ntu_edges;
+
 }  // namespace actformer::eval

@@ -1,68 +1,16 @@
-// Recognisers with random weights, and their forward pass written out plainly in double.
+// The recogniser's forward pass written out plainly in double.
 #pragma once
 
 #include <cmath>
-#include <random>
 
 #include "eval/partition.hpp"
 #include "eval/weights.hpp"
-#include "ingest/hdf5.hpp"
 
 namespace actformer::test {
 
-/// The edges that the recogniser uses on NTU's 25 joints; the centre is 20.
-inline const std::vector<int> ntu_edges{-1, 0,  20, 2, 20, 4,  5,  6, 20, 8, 9,  10, 0,
-                                        12, 13, 14, 0, 16, 17, 18, 1, 22, 7, 24, 11};
-
 /// A 21-joint tree with the root as centre, joints out of order.
 inline const std::vector<int> small_tree{-1, 0, 1,  2,  3,  0, 5,  6,  7,  0, 9,
-                                         11, 9, 11, 13, 14, 9, 16, 17, 20, 18};
-
-/// `width` scales the 64, 128 and 256 channels of the layers.
-inline eval::Weights made_recogniser(std::uint32_t channels, std::uint32_t classes,
-                                     const std::vector<int>& parents, std::uint32_t center, double width,
-                                     unsigned seed) {
-    eval::Weights w;
-    w.source = "made";
-    w.channels = channels;
-    w.classes = classes;
-    w.parents = parents;
-    w.center = center;
-    for (std::size_t i = 0; i < eval::stgcn_layers; ++i)
-        w.widths[i] = static_cast<std::uint32_t>(std::lround(width * (i < 4 ? 64 : i < 7 ? 128 : 256)));
-    std::mt19937 random(seed);
-    std::normal_distribution<float> normal;
-    std::uniform_real_distribution<float> uniform;
-    for (const auto& [name, shape] : eval::tensor_shapes(w)) {
-        std::size_t count = 1, fan_in = 1;
-        for (std::size_t d = 0; d < shape.size(); ++d) count *= shape[d], fan_in *= d > 0 ? shape[d] : 1;
-        std::vector<float> values(count);
-        for (auto& v : values) {
-            if (name.ends_with("running_var"))
-                v = uniform(random) + 0.5F;
-            else if (name.starts_with("edge_importance") || (name.ends_with(".weight") && shape.size() == 1))
-                v = 1 + 0.1F * normal(random);
-            else if (shape.size() == 1)
-                v = 0.1F * normal(random);
-            else
-                v = normal(random) * std::sqrt(2.0F / static_cast<float>(fan_in));
-        }
-        w.tensors[name] = values;
-    }
-    return w;
-}
-
-inline void write_recogniser(const std::filesystem::path& path, const eval::Weights& w) {
-    ingest::hdf5::Writer file(path);
-    for (const auto& [name, shape] : eval::tensor_shapes(w))
-        if (const auto at = w.tensors.find(name); at != w.tensors.end())
-            file.write<float>(name, ingest::hdf5::Shape(shape.begin(), shape.end()), at->second);
-    file.attribute("channels", static_cast<std::int64_t>(w.channels));
-    file.attribute("classes", static_cast<std::int64_t>(w.classes));
-    file.attribute("parents", std::vector<std::int64_t>(w.parents.begin(), w.parents.end()));
-    file.attribute("center", static_cast<std::int64_t>(w.center));
-    file.finish();
-}
+                                         12, 9, 11, 13, 14, 9, 16, 17, 20, 18};
 
 struct PlainResult {
     std::vector<double> features, logits;
