@@ -7,6 +7,7 @@ void add_bench(CLI::App& app) {
     auto* command = app.add_subcommand("bench", "Measure speed on this machine, with peers in the same run");
     command->require_subcommand(1);
     add_bench_ingest(*command);
+    add_bench_features(*command);
 }
 
 }  // namespace actformer::cli

@@ -6,5 +6,6 @@
 namespace actformer::cli {
 
 void add_bench_ingest(CLI::App& bench);
+void add_bench_features(CLI::App& bench);
 
 }  // namespace actformer::cli

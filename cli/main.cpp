@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
         add_ingest(app);
         add_inspect(app);
         add_export(app);
+        add_features(app);
         for (const auto& sub : subprograms)
             if (std::filesystem::exists(path_of(sub))) app.add_subcommand(sub.command, sub.description);
         add_bench(app);

@@ -221,6 +221,23 @@ void Writer::write_pieces(const std::string& name, const Shape& shape,
     }
 }
 
+void Writer::write_rows(const std::string& name, const Shape& shape, std::uint64_t first,
+                        std::span<const float> values) {
+    const auto set =
+        H5Lexists(file_.get(), name.c_str(), H5P_DEFAULT) > 0
+            ? checked(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT), H5Dclose, "adding to an array")
+            : create(name, H5T_NATIVE_FLOAT, shape, 0);
+    Shape start(shape.size(), 0), part = shape;
+    start[0] = first;
+    part[0] =
+        values.size() / std::accumulate(shape.begin() + 1, shape.end(), hsize_t{1}, std::multiplies<>());
+    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    const Handle memory(H5Screate_simple(static_cast<int>(part.size()), part.data(), nullptr), H5Sclose);
+    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
+    if (H5Dwrite(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
+        throw Error("HDF5: writing '{}' failed; is there space left?", name);
+}
+
 void Writer::write_strings(const std::string& name, const std::vector<std::string>& values) {
     std::size_t size = 1;
     for (const auto& value : values) size = std::max(size, value.size());

@@ -102,6 +102,10 @@ class Writer {
     void write_pieces(const std::string& name, const Shape& shape,
                       const std::vector<std::span<const float>>& pieces, hsize_t rows_a_chunk);
 
+    /// Rows from `first` on of an array of `shape`, which is made when the first of them come.
+    void write_rows(const std::string& name, const Shape& shape, std::uint64_t first,
+                    std::span<const float> values);
+
     /// Calls `use` with the bytes of a file in memory.
     void image(const std::function<void(std::string_view)>& use);
 

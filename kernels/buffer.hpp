@@ -97,7 +97,9 @@ template <typename T>
 const cl::Buffer& argument(const Buffer<T>& b) {
     return b.memory();
 }
-inline const cl::Buffer& argument(const cl::Buffer& b) { return b; }
+inline const cl::Buffer& argument(const cl::Buffer& b) {
+    return b;
+}
 template <typename T>
 T argument(T value) {
     static_assert(std::is_arithmetic_v<T> && sizeof(T) == 4, "kernels take 32-bit numbers and buffers");
@@ -107,8 +109,9 @@ T argument(T value) {
 
 /// Work-items a group along each dimension, found from what the device and the kernel allow. Groups depend on the range
 /// only through its order of magnitude: drivers that compile a kernel anew for every group size (PoCL) do so seldom.
+/// `wanted` at most: enough to fill a GPU's wavefronts, few enough for many groups on a CPU's cores.
 std::array<std::size_t, 2> group_size(const Device& device, const cl::Kernel& kernel,
-                                      std::array<std::size_t, 2> range);
+                                      std::array<std::size_t, 2> range, std::size_t wanted = 128);
 
 /// Enqueues `kernel` over at least `range` (x, y) work-items, rounded up to whole groups: the kernel itself leaves out those
 /// beyond. Arguments are buffers and 32-bit numbers. An empty range launches nothing.
@@ -122,6 +125,23 @@ void launch(Device& device, cl::Kernel kernel, std::array<std::size_t, 2> range,
         const cl::NDRange whole((range[0] + group[0] - 1) / group[0] * group[0],
                                 (range[1] + group[1] - 1) / group[1] * group[1]);
         device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, whole, cl::NDRange(group[0], group[1]));
+    } catch (const cl::Error& e) {
+        raise(device.info(), fmt::format("running kernel {}", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>()), e);
+    }
+}
+
+/// The same over (x, y, z) work-items in groups of at most `items`, for kernels that are particular about their groups.
+template <typename... Args>
+void launch(Device& device, cl::Kernel kernel, std::array<std::size_t, 3> range, std::size_t items,
+            const Args&... args) {
+    if (range[0] == 0 || range[1] == 0 || range[2] == 0) return;
+    try {
+        cl_uint i = 0;
+        (kernel.setArg(i++, detail::argument(args)), ...);
+        const auto group = group_size(device, kernel, {range[0], range[1]}, items);
+        const cl::NDRange whole((range[0] + group[0] - 1) / group[0] * group[0],
+                                (range[1] + group[1] - 1) / group[1] * group[1], range[2]);
+        device.queue().enqueueNDRangeKernel(kernel, cl::NullRange, whole, cl::NDRange(group[0], group[1], 1));
     } catch (const cl::Error& e) {
         raise(device.info(), fmt::format("running kernel {}", kernel.getInfo<CL_KERNEL_FUNCTION_NAME>()), e);
     }

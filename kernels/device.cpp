@@ -141,9 +141,7 @@ cl::Kernel Device::kernel_from(std::string_view text, std::string_view label, co
 }
 
 std::array<std::size_t, 2> group_size(const Device& device, const cl::Kernel& kernel,
-                                      std::array<std::size_t, 2> range) {
-    // Enough items to fill a GPU's wavefronts, few enough for many groups on a CPU's cores.
-    constexpr std::size_t wanted = 128;
+                                      std::array<std::size_t, 2> range, std::size_t wanted) {
     const auto target = std::min(wanted, kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device.handle()));
     const std::size_t x = std::min(target, std::bit_ceil(range[0]));
     return {x, std::max<std::size_t>(1, std::min(target / x, std::bit_ceil(range[1])))};
@@ -155,8 +153,8 @@ void raise(const DeviceInfo& device, std::string_view what, const cl::Error& err
         case CL_OUT_OF_RESOURCES:
         case CL_OUT_OF_HOST_MEMORY:
         case CL_INVALID_BUFFER_SIZE:
-            throw Error("device {} ({}): out of memory {}; choose another with --device", device.index,
-                        device.name, what);
+            throw OutOfMemory("device {} ({}): out of memory {}; choose another with --device", device.index,
+                              device.name, what);
         default:
             throw Error("device {} ({}): {} failed: {} says {}", device.index, device.name, what,
                         error.what(), error.err());

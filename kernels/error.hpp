@@ -15,4 +15,10 @@ class Error : public std::runtime_error {
         : std::runtime_error(fmt::format(text, std::forward<Args>(args)...)) {}
 };
 
+/// A device has not enough memory: a smaller batch may fit.
+class OutOfMemory : public Error {
+  public:
+    using Error::Error;
+};
+
 }  // namespace actformer

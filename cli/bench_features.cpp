@@ -1,0 +1,266 @@
+// actformer bench features: sequences a second through the recogniser, the share of what the device can do, and where the
+// time goes; beside PyTorch and ONNX Runtime on the same network in the same run.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/bench.hpp"
+#include "eval/recogniser.hpp"
+#include "eval/tuning.hpp"
+#include "kernels/error.hpp"
+#include "kernels/peak.hpp"
+
+namespace actformer::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    std::string recogniser, peers, node_modules, python = "/usr/bin/python3", device;
+    std::uint32_t frames = 64, batch = 64;
+    int rounds = 5;
+    bool tune = false, json = false;
+};
+
+constexpr std::array<const char*, 8> step_names{"enter",    "gather", "graph",    "split",
+                                                "temporal", "join",   "residual", "pool"};
+
+/// Milliseconds a batch, by layer and step. Waiting for every step costs a little on its own.
+using Breakdown = std::array<std::array<double, step_names.size()>, eval::stgcn_layers>;
+
+Breakdown time_steps(kernels::Device& device, const eval::Weights& weights, const kernels::Tiles& tiles,
+                     const Options& options) {
+    using Clock = std::chrono::steady_clock;
+    Breakdown best{};
+    eval::Recogniser recogniser(device, weights, tiles);
+    const std::vector<float> motions(
+        std::size_t{options.batch} * weights.channels * options.frames * weights.joints(), 0.5F);
+    const kernels::Buffer<float> on_device(device, motions);
+    recogniser.recognise(on_device.memory(), options.batch, options.frames);
+    for (int round = 0; round < options.rounds; ++round) {
+        Breakdown now{};
+        auto last = Clock::now();
+        recogniser.watch([&](std::size_t layer, eval::Step step) {
+            device.queue().finish();
+            const auto time = Clock::now();
+            now[layer][static_cast<std::size_t>(step)] +=
+                std::chrono::duration<double, std::milli>(time - last).count();
+            last = time;
+        });
+        recogniser.recognise(on_device.memory(), options.batch, options.frames);
+        for (std::size_t l = 0; l < best.size(); ++l)
+            for (std::size_t s = 0; s < best[l].size(); ++s)
+                best[l][s] = round == 0 ? now[l][s] : std::min(best[l][s], now[l][s]);
+    }
+    return best;
+}
+
+/// Runs a command that prints a number, its first line of complaint going to standard error; none where it fails.
+std::optional<double> ask(const std::string& line) {
+    std::string said;
+    FILE* pipe = ::popen(line.c_str(), "r");
+    for (int c; pipe && (c = std::fgetc(pipe)) != EOF;) said += static_cast<char>(c);
+    double value = 0;
+    if (!pipe || ::pclose(pipe) != 0 || std::sscanf(said.c_str(), "%lf", &value) != 1) return {};
+    return value;
+}
+
+struct Peers {
+    std::optional<double> torch, onnx;
+};
+
+/// A scratch folder with the weights and the exported network, gone with the benchmark.
+class PeerRunner {
+  public:
+    PeerRunner(const Options& options, const eval::Weights& weights) : options_(options), weights_(weights) {
+        if (options.peers.empty()) return;
+        if (!fs::exists(fs::path(options.peers) / "stgcn.py"))
+            throw Error("{}: holds no stgcn.py; --peers names the folder of the reference programs",
+                        options.peers);
+        auto name = (fs::temp_directory_path() / "actformer-bench-XXXXXX").string();
+        if (!mkdtemp(name.data())) throw Error("{}: no folder can be made there", name);
+        folder_ = name;
+        eval::write_weights(folder_ / "weights.h5", weights);
+    }
+    ~PeerRunner() {
+        std::error_code ignored;
+        if (!folder_.empty()) fs::remove_all(folder_, ignored);
+    }
+    PeerRunner(const PeerRunner&) = delete;
+    PeerRunner& operator=(const PeerRunner&) = delete;
+
+    /// Sequences a second of each peer at hand, each the best of five by its own clock, two threads.
+    void run(Peers& best) {
+        if (folder_.empty()) return;
+        const auto onnx = folder_ / "network.onnx";
+        const bool first = !fs::exists(onnx);
+        keep(best.torch,
+             ask(fmt::format("OMP_NUM_THREADS=2 '{}' '{}/stgcn.py' speed '{}' --frames {} --batch {} {}",
+                             options_.python, options_.peers, (folder_ / "weights.h5").string(),
+                             options_.frames, options_.batch,
+                             first ? fmt::format("--onnx '{}'", onnx.string()) : "")));
+        if (options_.node_modules.empty() || !fs::exists(onnx)) return;
+        keep(best.onnx,
+             ask(fmt::format("NODE_PATH='{}' node '{}/stgcn_ort.js' '{}' {} {} {} {}", options_.node_modules,
+                             options_.peers, onnx.string(), weights_.channels, options_.frames,
+                             weights_.joints(), options_.batch)));
+    }
+
+  private:
+    static void keep(std::optional<double>& best, std::optional<double> now) {
+        if (now && (!best || *now > *best)) best = now;
+    }
+
+    const Options& options_;
+    const eval::Weights& weights_;
+    fs::path folder_;
+};
+
+struct Result {
+    double rate = 0, peak = 0, direct = 0, multiplied = 0;  ///< a second; operations in GFLOP a sequence
+    Peers peers;
+    Breakdown steps{};
+};
+
+void print_breakdown(const Breakdown& steps) {
+    fmt::print("milliseconds a batch by layer and step, each step waited for:\n  layer");
+    for (const auto* name : step_names) fmt::print("{:>9}", name);
+    fmt::print("{:>9}\n", "all");
+    std::array<double, step_names.size() + 1> sums{};
+    for (std::size_t l = 0; l < steps.size(); ++l) {
+        double all = 0;
+        fmt::print("  {:>5}", l);
+        for (std::size_t s = 0; s < step_names.size(); ++s) {
+            fmt::print("{:>9.2f}", steps[l][s]);
+            all += steps[l][s];
+            sums[s] += steps[l][s];
+        }
+        fmt::print("{:>9.2f}\n", all);
+        sums.back() += all;
+    }
+    fmt::print("    all");
+    for (const auto sum : sums) fmt::print("{:>9.2f}", sum);
+    fmt::print("\n");
+}
+
+void print_text(const Result& r, const Options& options, const kernels::Device& device,
+                const kernels::Tiles& tiles) {
+    fmt::print("{}: {}\n", device.info().name, describe(tiles));
+    fmt::print("actformer          {:>8.1f} sequences/s of {} frames, batches of {}\n", r.rate,
+               options.frames, options.batch);
+    const auto peer = [&](const char* name, std::optional<double> rate, const char* how) {
+        if (rate)
+            fmt::print("{:<18} {:>8.1f} sequences/s, ratio {:.2f}\n", name, *rate, r.rate / *rate);
+        else
+            fmt::print("{:<18} not measured: {}\n", name, how);
+    };
+    peer("PyTorch, eager", r.peers.torch,
+         "name the reference programs with --peers; they need python3-torch");
+    peer("ONNX Runtime", r.peers.onnx, "name the folder of onnxruntime-node with --node-modules");
+    fmt::print("peak multiply-add  {:>8.1f} GFLOP/s\n", r.peak);
+    fmt::print("multiplied         {:>8.1f} GFLOP/s, {:.0f} % of the peak ({:.2f} GFLOP a sequence)\n",
+               r.rate * r.multiplied, 100 * r.rate * r.multiplied / r.peak, r.multiplied);
+    fmt::print("by direct sums     {:>8.1f} GFLOP/s, {:.0f} % of the peak ({:.2f} GFLOP a sequence)\n",
+               r.rate * r.direct, 100 * r.rate * r.direct / r.peak, r.direct);
+    print_breakdown(r.steps);
+}
+
+void print_json(const Result& r, const Options& options, const kernels::Device& device,
+                const kernels::Tiles& tiles) {
+    Json steps = Json::array();
+    for (const auto& layer : r.steps) {
+        Json row;
+        for (std::size_t s = 0; s < step_names.size(); ++s) row[step_names[s]] = layer[s];
+        steps.push_back(row);
+    }
+    Json out = {{"device", device.info().name},
+                {"tiles", describe(tiles)},
+                {"frames", options.frames},
+                {"batch", options.batch},
+                {"sequences_a_second", r.rate},
+                {"peak_gflops", r.peak},
+                {"multiplied_gflops", r.rate * r.multiplied},
+                {"direct_gflops", r.rate * r.direct},
+                {"share_of_peak", r.rate * r.multiplied / r.peak}};
+    const auto peer = [&](const char* name, std::optional<double> rate) {
+        if (rate) out["peers"][name] = {{"sequences_a_second", *rate}, {"ratio", r.rate / *rate}};
+    };
+    peer("pytorch", r.peers.torch);
+    peer("onnxruntime", r.peers.onnx);
+    out["milliseconds_a_batch"] = steps;
+    fmt::print("{}\n", out.dump(2));
+}
+
+/// Peers and program take turns, so that a busy machine disturbs them alike; each keeps its best.
+Result measure(kernels::Device& device, const eval::Weights& weights, const kernels::Tiles& tiles,
+               const Options& options) {
+    Result result;
+    result.direct = eval::direct_operations(weights, options.frames) * 1e-9;
+    result.multiplied = eval::multiplied_operations(weights, options.frames) * 1e-9;
+    PeerRunner peers(options, weights);
+    for (int turn = 0; turn < (options.peers.empty() ? 1 : 2); ++turn) {
+        result.rate = std::max(result.rate, eval::measure_rate(device, weights, tiles, options.batch,
+                                                               options.frames, options.rounds));
+        result.peak = std::max(result.peak, kernels::measure_peak(device, tiles.vec, options.rounds) * 1e-9);
+        peers.run(result.peers);
+    }
+    result.steps = time_steps(device, weights, tiles, options);
+    return result;
+}
+
+void run(const Options& options) {
+    kernels::Device device(options.device);
+    const auto weights = options.recogniser.empty() ? eval::random_weights(3, 94, eval::ntu_edges, 20, 1, 0)
+                                                    : eval::read_weights(options.recogniser);
+    if (options.tune) {
+        const auto tiles = eval::tune(device, weights, options.batch, options.frames,
+                                      [&](const kernels::Tiles& t, double rate) {
+                                          fmt::print(stderr, "{:>8.1f} sequences/s  {}\n", rate, describe(t));
+                                      });
+        eval::save_tiles(device.info(), tiles);
+        fmt::print(stderr, "kept in {}: {}\n", eval::tiles_file().string(), describe(tiles));
+    }
+    const auto tiles = eval::load_tiles(device.info());
+    const auto result = measure(device, weights, tiles, options);
+    options.json ? print_json(result, options, device, tiles) : print_text(result, options, device, tiles);
+}
+
+}  // namespace
+
+void add_bench_features(CLI::App& bench) {
+    auto options = std::make_shared<Options>();
+    auto* command = bench.add_subcommand(
+        "features", "The recogniser on an OpenCL device, beside PyTorch and ONNX Runtime");
+    command->add_option("--recogniser", options->recogniser,
+                        "Weights to run (default: random ones of full width)");
+    command->add_option("--frames", options->frames, "Frames of a sequence")
+        ->check(CLI::Range(1, 100'000))
+        ->capture_default_str();
+    command->add_option("--batch", options->batch, "Sequences of a batch")
+        ->check(CLI::Range(1, 65536))
+        ->capture_default_str();
+    command->add_option("--rounds", options->rounds, "Runs of which the best counts")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_flag("--tune", options->tune,
+                      "Find the best tile sizes of this device first, and keep them");
+    command->add_option("--peers", options->peers,
+                        "Folder of the reference programs stgcn.py and stgcn_ort.js");
+    command->add_option("--node-modules", options->node_modules, "Folder that holds onnxruntime-node");
+    command->add_option("--python", options->python, "Python that has torch and h5py")->capture_default_str();
+    command->add_option("--device", options->device, "OpenCL device: a number, gpu, cpu, or part of a name");
+    command->add_flag("--json", options->json, "Print JSON");
+    examples(command,
+             "  actformer bench features\n"
+             "  actformer bench features --tune --peers ../shared/reference --node-modules "
+             "/tmp/ort/node_modules\n");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace actformer::cli

@@ -1,0 +1,24 @@
+#include "kernels/tiles.hpp"
+
+namespace actformer::kernels {
+
+Tiles default_tiles(const DeviceInfo& device) {
+    Tiles tiles;
+    if (device.type == "CPU") return tiles;
+    tiles.vec = 4;
+    tiles.rows = 8;
+    tiles.vectors = 1;
+    tiles.item_tiles = 1;
+    tiles.group = 64;
+    tiles.columns_first = true;
+    tiles.sequences = 64;
+    return tiles;
+}
+
+std::string describe(const Tiles& tiles) {
+    return fmt::format("{} rows x {} float{}, {} tiles an item, groups of {}{}, {} sequences at once",
+                       tiles.rows, tiles.vectors, tiles.vec, tiles.item_tiles, tiles.group,
+                       tiles.columns_first ? " along columns" : "", tiles.sequences);
+}
+
+}  // namespace actformer::kernels
