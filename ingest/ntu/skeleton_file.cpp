@@ -9,6 +9,7 @@
 #include "ingest/text/lines.hpp"
 #include "ingest/text/number.hpp"
 #include "ingest/text/printable.hpp"
+#include "ingest/text/three_numbers.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest {
@@ -18,60 +19,31 @@ constexpr int joint_fields = 12;
 constexpr int body_fields = 10;
 constexpr double farthest = 1e6;  // metres; float32 limbs stay finite and exact enough far beyond any room
 
-using Joints = std::array<std::array<double, 3>, ntu_joints>;
+using Joints = std::array<Point, ntu_joints>;
 
-/// A product with one of these sets the point and the sign: [minus][digits behind the point].
-constexpr double scales[2][16] = {{1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8},
-                                  {-1, -1e-1, -1e-2, -1e-3, -1e-4, -1e-5, -1e-6, -1e-7, -1e-8}};
-
-/// A number as the sensor's software nearly always writes it, [-]D.DDDDDDDD with one to eight digits behind the point, in `length`
-/// characters. Returns nonzero, and any value, for another, however sound: what speed there is comes of having no branch here.
-/// The value may be off by the last bit of a double, which float32 limbs never see. Needs 10 readable bytes.
-inline std::uint64_t read_plain_number(const char* p, int length, double& value) {
-    const auto minus = (static_cast<std::uint32_t>(static_cast<unsigned char>(*p) ^ '-') - 1U) >> 31;
-    p += minus;
-    const auto places = static_cast<std::uint32_t>(length - 2) - minus;
-    const auto lead = static_cast<std::uint32_t>(static_cast<unsigned char>(*p)) - '0';
-    std::uint64_t digits;
-    std::memcpy(&digits, p + 2, 8);
-    digits = (digits ^ 0x3030303030303030)
-             << ((64 - 8 * places) & 63);  // what is no digit of ours leaves at the top
-    const std::uint64_t odd = ((digits | (digits + 0x7676767676767676)) & 0x8080808080808080) |
-                              static_cast<std::uint64_t>(places - 1 > 7) |
-                              static_cast<std::uint64_t>(lead > 9) | static_cast<std::uint64_t>(p[1] != '.');
-    // Neighbours join into numbers of 2, 4, then 8 digits, the lower byte counting for more.
-    digits = (digits * (1 + (10ULL << 8)) >> 8) & 0x00FF00FF00FF00FF;
-    digits = (digits * (1 + (100ULL << 16)) >> 16) & 0x0000FFFF0000FFFF;
-    digits = digits * (1 + (10000ULL << 32)) >> 32;
-    const auto whole = lead * detail::whole_powers_of_ten[places & 15] + digits;
-    value = static_cast<double>(static_cast<std::int64_t>(whole)) * scales[minus][places & 15];
-    return odd;
+/// Numbers written in any way.
+inline bool read_three(const char* line, std::uint64_t blank, Point& joint) {
+    std::array<std::pair<int, int>, 3> fields;
+    if (!find_three(blank, fields)) return false;
+    for (std::size_t d = 0; d < 3; ++d)
+        if (parse_number(line + fields[d].first, joint[d]) != line + fields[d].second ||
+            !(std::abs(joint[d]) < farthest))
+            return false;
+    return true;
 }
 
-/// A joint's line as it nearly always is: twelve fields on 65 to 128 characters, the first three plainly numbers. Finds
-/// its end and all its fields at once. False for any other line, however sound.
-inline bool read_plain_joint(const char*& line, const char* end, std::array<double, 3>& joint) {
+/// A joint's line as it nearly always is: twelve fields on 65 to 128 characters, the first three numbers. Finds its end
+/// and all its fields at once. False for any other line, however sound.
+inline bool read_plain_joint(const char*& line, const char* end, Point& joint) {
     if (end - line < 128) return false;
     const auto low = masks_of_64(line), high = masks_of_64(line + 64);
     if (low.newline != 0 || high.newline == 0) return false;
-    const int stop = std::countr_zero(high.newline);
-    auto begins = ~low.blank & (low.blank << 1 | 1), ends = low.blank & ~(low.blank << 1);
-    const auto later = ~high.blank & (high.blank << 1 | low.blank >> 63) & ((std::uint64_t{1} << stop) - 1);
-    if (std::popcount(begins) + std::popcount(later) != joint_fields || std::popcount(ends) < 3) return false;
-    std::array<std::pair<int, int>, 3> fields;
-    std::uint64_t odd = 0;
-    for (std::size_t d = 0; d < 3; ++d) {
-        fields[d] = {std::countr_zero(begins), std::countr_zero(ends)};
-        begins &= begins - 1;
-        ends &= ends - 1;
-        odd |= read_plain_number(line + fields[d].first, fields[d].second - fields[d].first, joint[d]);
-    }
-    if (odd)
-        for (std::size_t d = 0; d < 3; ++d)
-            if (parse_number(line + fields[d].first, joint[d]) != line + fields[d].second ||
-                !(std::abs(joint[d]) < farthest))
-                return false;
-    line += 64 + stop + 1;
+    const auto begins = ~low.blank & (low.blank << 1 | 1);
+    const auto later =
+        ~high.blank & (high.blank << 1 | low.blank >> 63) & ((high.newline - 1) & ~high.newline);
+    if (std::popcount(begins) + std::popcount(later) != joint_fields) return false;
+    if (!read_three_plainly(line, low.blank, joint) && !read_three(line, low.blank, joint)) return false;
+    line += 64 + std::countr_zero(high.newline) + 1;
     return true;
 }
 
@@ -145,7 +117,7 @@ class Reader {
         end_line(1, body_fields);
         const auto joints = count("joints");
         if (joints != ntu_joints) fail("{} joints, not {}", joints, ntu_joints);
-        Joints positions;
+        Joints positions{};
         read_joints(positions);
         store(file, id, frame, positions);
     }
@@ -163,12 +135,12 @@ class Reader {
     }
 
     /// Field by field, to take what is unusual and to name what is wrong.
-    void read_odd_joint(std::array<double, 3>& joint) {
+    void read_odd_joint(Point& joint) {
         begin_line("a joint");
-        for (double& value : joint) {
+        for (std::size_t d = 0; d < 3; ++d) {
             at_ = skip_blanks(at_, end_);
-            const char* stop = at_ < end_ ? parse_number(at_, value) : nullptr;
-            if (!stop || static_cast<unsigned char>(*stop) > ' ' || !(std::abs(value) < farthest))
+            const char* stop = at_ < end_ ? parse_number(at_, joint[d]) : nullptr;
+            if (!stop || static_cast<unsigned char>(*stop) > ' ' || !(std::abs(joint[d]) < farthest))
                 fail("{} where a coordinate in metres should be", in_quotes(token()));
             at_ = stop;
         }
@@ -186,15 +158,18 @@ class Reader {
             body->times.reserve(expected);
             body->limbs.reserve(expected * ntu_joints * 3);
         }
-        if (body->times.empty() || body->times.back() != frame) {
+        if (!body->times.empty() && body->times.back() == frame)
+            body->limbs.resize(body->limbs.size() - ntu_joints * 3);
+        else
             body->times.push_back(frame);
-            body->limbs.resize(body->limbs.size() + ntu_joints * 3);
+        std::array<float, ntu_joints * 3 + 1>
+            limbs;  // four are stored at once, the next joint over the fourth
+        for (std::size_t j = 0; j < ntu_joints; ++j) {
+            const auto& parent = j == 0 ? origin_ : positions[ntu25_parents[j]];
+            for (std::size_t d = 0; d < 4; ++d)
+                limbs[3 * j + d] = static_cast<float>(positions[j][d] - parent[d]);
         }
-        float* limb = &*(body->limbs.end() - ntu_joints * 3);
-        for (std::size_t j = 0; j < ntu_joints; ++j)
-            for (std::size_t d = 0; d < 3; ++d, ++limb)
-                *limb =
-                    static_cast<float>(positions[j][d] - (j == 0 ? origin_ : positions[ntu25_parents[j]])[d]);
+        body->limbs.insert(body->limbs.end(), limbs.begin(), limbs.end() - 1);
     }
 
     void refuse_leftovers() {
@@ -211,7 +186,7 @@ class Reader {
     const char* end_;
     std::uint64_t line_ = 0;
     std::uint32_t place_ = 0;
-    std::array<double, 3> origin_{};
+    Point origin_{};
 };
 
 }  // namespace
