@@ -26,14 +26,17 @@ std::filesystem::path path_of(const Subprogram& sub) {
 
 /// OpenMP's threads spin while they wait, and on a machine with other work starve it and one another: training runs two to
 /// four times slower. The library reads how to wait when it is loaded. Whoever sets OMP_WAIT_POLICY is left alone.
-void wait_without_spinning() { ::setenv("OMP_WAIT_POLICY", "passive", 0); }
+void wait_without_spinning() {
+    ::setenv("OMP_WAIT_POLICY", "passive", 0);
+}
 
 /// Becomes the program that a command lives in; comes back only where it cannot.
 int become(const Subprogram& sub, char** argv) {
     wait_without_spinning();
     ::execv(path_of(sub).c_str(), argv);
     std::fprintf(stderr,
-                 "actformer: this build has no '%s': %s is not beside it (train and model need libtorch; see README)\n",
+                 "actformer: this build has no '%s': %s is not beside it (train and model need libtorch; see "
+                 "README)\n",
                  sub.command, sub.program);
     return 1;
 }

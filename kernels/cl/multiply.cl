@@ -29,10 +29,11 @@
 
 #define BLOCK (TILE_VECTORS * VEC)
 
-kernel void multiply(global const float* restrict a, global const float* restrict w, global const uint* restrict first,
-                     global const uint2* restrict segment, global const float* restrict scale,
-                     global const float* restrict bias, global float* restrict out, uint tiles, uint columns,
-                     uint problems, uint depth, uint a_rows, uint out_rows) {
+kernel void multiply(global const float* restrict a, global const float* restrict w,
+                     global const uint* restrict first, global const uint2* restrict segment,
+                     global const float* restrict scale, global const float* restrict bias,
+                     global float* restrict out, uint tiles, uint columns, uint problems, uint depth,
+                     uint a_rows, uint out_rows) {
     const uint column = get_global_id(COLUMNS_FIRST ? 0 : 1), problem = get_global_id(2);
     const uint begin = get_global_id(COLUMNS_FIRST ? 1 : 0) * ITEM_TILES;
     if (column >= columns || begin >= tiles || problem >= problems) return;
@@ -45,8 +46,10 @@ kernel void multiply(global const float* restrict a, global const float* restric
             for (int v = 0; v < TILE_VECTORS; ++v) sum[r][v] = 0;
 
         for (uint s = first[problem]; s < first[problem + 1]; ++s) {
-            global const float* restrict rows = a + ((size_t)segment[s].x * a_rows + tile * TILE_ROWS) * A_PITCH;
-            global const float* restrict weights = w + ((size_t)segment[s].y * columns + column) * depth * BLOCK;
+            global const float* restrict rows =
+                a + ((size_t)segment[s].x * a_rows + tile * TILE_ROWS) * A_PITCH;
+            global const float* restrict weights =
+                w + ((size_t)segment[s].y * columns + column) * depth * BLOCK;
             for (size_t k = 0; k < depth; ++k) {
                 VECTOR weight[TILE_VECTORS];
 #pragma unroll

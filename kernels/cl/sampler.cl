@@ -24,8 +24,8 @@ uint shown(uint start, uint t, uint frames) {
 }
 
 // One frame of one sample; four bits of `order` a person say whom of the clip to show.
-void copy_frame(global const float* from, global float* to, uint t, ulong order, uint window, uint persons, uint joints,
-                uint channels) {
+void copy_frame(global const float* from, global float* to, uint t, ulong order, uint window, uint persons,
+                uint joints, uint channels) {
     for (uint p = 0; p < persons; ++p, order >>= 4) {
         global const float* body = from + (uint)(order & 15) * joints * channels;
         for (uint c = 0; c < channels; ++c) {
@@ -67,8 +67,9 @@ uint find_class(global const ulong* class_edge, uint drawn, ulong at) {
 // One work-item a (frame, sample): each draws its sample's choices anew, which is cheaper than a second launch.
 kernel void draw(global const float* motion, global const uint4* clip, global const uint* by_class,
                  global const uint* class_first, global const ulong* class_edge, uint drawn, uint seed_low,
-                 uint seed_high, uint batch_low, uint batch_high, uint permute, uint samples, uint window, uint persons,
-                 uint joints, uint channels, global float* values, global uint* labels, global uint2* picks) {
+                 uint seed_high, uint batch_low, uint batch_high, uint permute, uint samples, uint window,
+                 uint persons, uint joints, uint channels, global float* values, global uint* labels,
+                 global uint2* picks) {
     const uint t = get_global_id(0), sample = get_global_id(1);
     if (t >= window || sample >= samples) return;
     const uint2 key = (uint2)(seed_low, seed_high);
@@ -83,8 +84,8 @@ kernel void draw(global const float* motion, global const uint4* clip, global co
     const ulong order = permute ? draw_order(persons, counter, key) : 0xFEDCBA9876543210UL;
 
     const size_t row = (size_t)persons * joints * channels;
-    copy_frame(motion + (clip[c].x + shown(start, t, frames)) * row, values + sample * row * window, t, order, window,
-               persons, joints, channels);
+    copy_frame(motion + (clip[c].x + shown(start, t, frames)) * row, values + sample * row * window, t, order,
+               window, persons, joints, channels);
     if (t == 0) {
         labels[sample] = clip[c].z;
         picks[sample] = (uint2)(c, start);
@@ -100,8 +101,8 @@ kernel void cut(global const float* motion, global const uint4* clip, global con
     const uint2 pick = windows[first + sample];
     const uint4 c = clip[pick.x];
     const size_t row = (size_t)persons * joints * channels;
-    copy_frame(motion + (c.x + shown(pick.y, t, c.y)) * row, values + sample * row * window, t, 0xFEDCBA9876543210UL,
-               window, persons, joints, channels);
+    copy_frame(motion + (c.x + shown(pick.y, t, c.y)) * row, values + sample * row * window, t,
+               0xFEDCBA9876543210UL, window, persons, joints, channels);
     if (t == 0) {
         labels[sample] = c.z;
         picks[sample] = pick;

@@ -74,7 +74,8 @@ void join8(const VECTOR* m, VECTOR* y, int results) {
 }
 
 // A tile of 18 results from the frames it needs, `start` being the first of them.
-void split_tile(global const float* from, global float* to, int start, uint length, uint pitch, size_t plane) {
+void split_tile(global const float* from, global float* to, int start, uint length, uint pitch,
+                size_t plane) {
     VECTOR at5[5][8];
 #pragma unroll
     for (int m = 0; m < 8; ++m) {
@@ -95,7 +96,8 @@ void split_tile(global const float* from, global float* to, int start, uint leng
 }
 
 // The same for a tile of 4 results at stride 2.
-void split_strided_tile(global const float* from, global float* to, int start, uint length, uint pitch, size_t plane) {
+void split_strided_tile(global const float* from, global float* to, int start, uint length, uint pitch,
+                        size_t plane) {
 #pragma unroll
     for (int phase = 0; phase < 2; ++phase) {
         VECTOR d[8], v[8];
@@ -115,8 +117,8 @@ void finish(VECTOR y, VECTOR bias, global const float* residual, global float* t
 }
 
 // Results from `start` to the sequence's end, 18 at most.
-void join_tile(global const float* from, VECTOR bias, global const float* residual, global float* to, uint add, uint start,
-               uint length, uint pitch, size_t plane) {
+void join_tile(global const float* from, VECTOR bias, global const float* residual, global float* to,
+               uint add, uint start, uint length, uint pitch, size_t plane) {
     VECTOR groups[6][5];
 #pragma unroll
     for (int b = 0; b < 5; ++b) {
@@ -141,8 +143,8 @@ void join_tile(global const float* from, VECTOR bias, global const float* residu
 }
 
 // The same for 4 results at stride 2, whose points are the sums over both phases.
-void join_strided_tile(global const float* from, VECTOR bias, global const float* residual, global float* to, uint add,
-                       uint start, uint length, uint pitch, size_t plane) {
+void join_strided_tile(global const float* from, VECTOR bias, global const float* residual, global float* to,
+                       uint add, uint start, uint length, uint pitch, size_t plane) {
     VECTOR m[8], y[4];
 #pragma unroll
     for (int a = 0; a < 8; ++a) m[a] = LOAD(0, from + a * plane);
@@ -157,8 +159,9 @@ void join_strided_tile(global const float* from, VECTOR bias, global const float
 
 // A work-item takes a tile, and of its channels every get_global_size(0)-th vector. `length` counts frames here and
 // results in `join`. With `stride` 2 both do so at a stride.
-kernel void split(global const float* restrict frames, global float* restrict points, uint stride, uint sequences,
-                  uint length, uint tiles, uint strips, uint rows, uint tile_rows, uint pitch) {
+kernel void split(global const float* restrict frames, global float* restrict points, uint stride,
+                  uint sequences, uint length, uint tiles, uint strips, uint rows, uint tile_rows,
+                  uint pitch) {
     const uint row = get_global_id(1), strip = row / tiles;
     if (strip >= strips) return;
     const size_t first = (size_t)(strip / sequences) * rows + strip % sequences * length;
@@ -178,7 +181,8 @@ kernel void split(global const float* restrict frames, global float* restrict po
 // become 0.
 kernel void join(global const float* restrict points, global const float* restrict bias,
                  global const float* restrict residual, global float* restrict frames, uint add, uint stride,
-                 uint sequences, uint length, uint tiles, uint strips, uint rows, uint tile_rows, uint pitch) {
+                 uint sequences, uint length, uint tiles, uint strips, uint rows, uint tile_rows,
+                 uint pitch) {
     const uint row = get_global_id(1), strip = row / tiles;
     if (strip >= strips) return;
     const size_t first = (size_t)(strip / sequences) * rows + strip % sequences * length;

@@ -19,13 +19,15 @@ std::string block(const std::string& language) {
 }  // namespace
 
 TEST(Readme, ItsPythonReadsAShard) {
-    if (run_command("/usr/bin/python3 -c 'import h5py'").exit != 0) GTEST_SKIP() << "no h5py in /usr/bin/python3";
+    if (run_command("/usr/bin/python3 -c 'import h5py'").exit != 0)
+        GTEST_SKIP() << "no h5py in /usr/bin/python3";
     const TempDir dir;
     write_file(dir / "raw/S001C001P001R001A007.skeleton", plain_clip(42));
     const auto in_dir = "cd " + dir.path().string() + " && ";
     ASSERT_EQ(run_command(in_dir + ACTFORMER_PROGRAM " ingest ntu raw -o ntu").exit, 0);
     write_file(dir / "snippet.py", block("python"));
-    EXPECT_EQ(run_command(in_dir + "/usr/bin/python3 snippet.py").output, "S001C001P001R001A007 6 (42, 1, 25, 3)\n");
+    EXPECT_EQ(run_command(in_dir + "/usr/bin/python3 snippet.py").output,
+              "S001C001P001R001A007 6 (42, 1, 25, 3)\n");
 }
 
 TEST(Readme, ItsPipelineRuns) {

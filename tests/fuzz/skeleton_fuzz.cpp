@@ -24,7 +24,9 @@ void check(const SkeletonFile& file) {
     }
 }
 
-void check(const Rejection& why) { demand(!why.reason.empty() && why.reason.find('\n') == std::string::npos); }
+void check(const Rejection& why) {
+    demand(!why.reason.empty() && why.reason.find('\n') == std::string::npos);
+}
 
 }  // namespace
 
