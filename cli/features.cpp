@@ -45,6 +45,8 @@ void run(const Options& options) {
                         folders.size(), folders[0].string());
         request.input = folders[0];
     }
+    if (std::filesystem::is_directory(request.recogniser))
+        request.recogniser /= "weights-best.h5";  // of a run
     kernels::Device device(options.device);
     Progress progress("features", "sequences", options.json);
     const auto summary = eval::make_features(request, device, [&](std::uint64_t done, std::uint64_t all) {
@@ -60,9 +62,9 @@ void add_features(CLI::App& app) {
     auto options = std::make_shared<Options>();
     auto* command = app.add_subcommand("features", "Features and logits of motions or of a dataset's split");
     auto& request = options->request;
-    command->add_option("--recogniser", request.recogniser, "Weights of the recogniser")
+    command->add_option("--recogniser", request.recogniser, "Folder of its training, or its weights")
         ->required()
-        ->type_name("WEIGHTS.h5");
+        ->type_name("RUN|WEIGHTS.h5");
     command->add_option("input", request.input, "Motions file in the public layout, or dataset folder")
         ->required()
         ->type_name("INPUT");
@@ -79,8 +81,8 @@ void add_features(CLI::App& app) {
     command->add_option("--device", options->device, "OpenCL device: a number, gpu, cpu, or part of a name");
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
-             "  actformer features --recogniser run/recogniser.h5 generated.h5 -o generated-features.h5\n"
-             "  actformer features --recogniser run/recogniser.h5 ntu/ntu-1p --split xsub/test -o real.h5\n");
+             "  actformer features --recogniser run generated.h5 -o generated-features.h5\n"
+             "  actformer features --recogniser run ntu/ntu-1p --split xsub/test -o real.h5\n");
     command->callback([options] { run(*options); });
 }
 
