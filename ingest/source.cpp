@@ -90,7 +90,7 @@ class Archive {
                 break;
             }
             bytes.resize(static_cast<std::size_t>(offset) + size);
-            std::memcpy(bytes.data() + offset, block, size);
+            if (size > 0) std::memcpy(bytes.data() + offset, block, size);
         }
         file.size = bytes.size();
         bytes.resize(bytes.size() + text_padding);
