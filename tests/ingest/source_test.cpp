@@ -99,7 +99,7 @@ TEST_F(Files, ThatAreNotThereAreNamed) {
 TEST_F(Files, InABrokenArchiveStopWithItsName) {
     for (int i = 0; i < 50; ++i) {
         std::string text;
-        for (int j = 0; j < 3000; ++j) text += std::to_string(i * 7919 + j * j * 104729);
+        for (unsigned j = 0; j < 3000; ++j) text += std::to_string(i * 7919U + j * j * 104729U);
         write_file(dir / ("raw/many/" + std::to_string(i) + ".skeleton"), text);
     }
     for (const std::string name : {"x.tar.gz", "x.tar.xz", "x.zip"}) {
