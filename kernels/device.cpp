@@ -109,7 +109,8 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_vi
 
 Device::Device(std::string_view wish) {
     const auto devices = raw_devices();
-    info_ = list_devices().at(choose_device(list_devices(), wish));
+    const auto known = list_devices();
+    info_ = known[choose_device(known, wish)];
     device_ = devices.at(info_.index);
     try {
         context_ = cl::Context(device_);
