@@ -6,7 +6,7 @@ namespace actformer::model {
 namespace {
 
 constexpr double leak = 0.2;
-constexpr std::int64_t person_heads = 8;
+constexpr std::int64_t person_heads = 8, last_padding = 1;
 
 DiscriminatorSettings checked(DiscriminatorSettings settings) {
     check(settings);
@@ -31,7 +31,10 @@ Discriminator::Discriminator(DiscriminatorSettings settings, std::uint64_t seed,
         const auto sums =
             at::from_blob(values.data(), {conv.sums.hops, conv.sums.outputs, conv.sums.inputs}, at::kFloat);
         sums_.push_back(register_buffer(fmt::format("sums{}", sums_.size()), sums.to(type, false, true)));
+        node_sums_.emplace_back(conv.sums);
     }
+    const auto coarse = convolutions_.back().sums.outputs;
+    node_sums_.emplace_back(HopMatrix{1, 1, coarse, std::vector<float>(coarse, 1)});
 }
 
 at::Tensor Discriminator::linear(const at::Tensor& x, const std::string& name) const {
@@ -44,7 +47,9 @@ at::Tensor Discriminator::convolved(const at::Tensor& x, std::size_t i) const {
     const auto name = fmt::format("convs.{}.", i);
     const auto n = x.size(0), in = x.size(1), nodes = x.size(2), t = x.size(3);
     const auto weight = weights_.normalised(name + "weight", is_training())
-                            .view({nodes * 2 * conv.out, in, 1, std::int64_t{conv.taps}});
+                            .view({nodes * 2 * conv.out, std::int64_t{conv.taps}, in})
+                            .transpose(1, 2)
+                            .unsqueeze(2);
     const auto bias = conv.bias ? weights_.at(name + "bias") : at::Tensor();
     auto y = at::conv2d(x.transpose(1, 2).reshape({n, nodes * in, 1, t}), weight, bias,
                         at::IntArrayRef{1, conv.stride}, at::IntArrayRef{0, conv.padding}, 1, nodes);
@@ -55,11 +60,57 @@ at::Tensor Discriminator::convolved(const at::Tensor& x, std::size_t i) const {
 
 /// (N, features) of motions (N, C, T, K).
 at::Tensor Discriminator::features(const at::Tensor& motion) const {
+    if (takes_fused_path(motion)) return fused_features(motion);
     auto x = with_differences(motion).transpose(2, 3);
     for (std::size_t i = 0; i < convolutions_.size(); ++i) x = convolved(x, i);
-    x = at::conv2d(x, weights_.normalised("last.weight", is_training()), weights_.at("last.bias"),
-                   at::IntArrayRef{1, 2}, at::IntArrayRef{0, 1});
+    const auto last = weights_.normalised("last.weight", is_training()).permute({0, 3, 1, 2});
+    x = at::conv2d(x, last, weights_.at("last.bias"), at::IntArrayRef{1, 2},
+                   at::IntArrayRef{0, last_padding});
     return at::leaky_relu(x, leak).sum({2, 3});
+}
+
+/// What the biases of the groups add up to at each output node, (outputs, out); undefined without biases.
+at::Tensor Discriminator::node_bias(std::size_t i) const {
+    const auto& conv = convolutions_[i];
+    if (!conv.bias) return {};
+    const std::int64_t outputs = conv.sums.outputs, groups = std::int64_t{conv.sums.inputs} * conv.sums.hops;
+    return sums_[i]
+        .permute({1, 2, 0})
+        .reshape({outputs, groups})
+        .matmul(weights_.at(fmt::format("convs.{}.bias", i)).view({groups, conv.out}));
+}
+
+at::Tensor Discriminator::fused_features(const at::Tensor& motion) const {
+    auto x = fused_motion_input(motion.contiguous(), convolutions_[0].padding);
+    std::int64_t frames = motion.size(2);
+    for (std::size_t i = 0; i < convolutions_.size(); ++i) {
+        const auto& conv = convolutions_[i];
+        const bool last = i + 1 == convolutions_.size();
+        const std::int64_t window = std::int64_t{conv.taps} * conv.in;
+        const cpu::NodeShape shape{x.size(0),
+                                   conv.sums.inputs,
+                                   conv.sums.outputs,
+                                   frames,
+                                   conv.in,
+                                   conv.out,
+                                   conv.taps,
+                                   conv.stride,
+                                   conv.padding,
+                                   last ? last_padding : convolutions_[i + 1].padding,
+                                   conv.sums.hops * conv.out * window,
+                                   conv.out * window,
+                                   window};
+        x = fused_node_convolution(x, weights_.normalised(fmt::format("convs.{}.weight", i), is_training()),
+                                   node_bias(i), shape, node_sums_[i], leak);
+        frames = shape.out_frames();
+    }
+    const std::int64_t nodes = convolutions_.back().sums.outputs, features = settings_.features(),
+                       window = last_taps * features / 2;
+    const cpu::NodeShape shape{x.size(0),    nodes, 1,      frames, features / 2,  features, last_taps, 2,
+                               last_padding, 0,     window, 0,      nodes * window};
+    x = fused_node_convolution(x, weights_.normalised("last.weight", is_training()),
+                               weights_.at("last.bias").view({1, features}), shape, node_sums_.back(), leak);
+    return x.sum({1, 2});
 }
 
 /// (N, P, features) -> (N, features)

@@ -20,16 +20,23 @@ class Discriminator : public torch::nn::Module {
     const DiscriminatorSettings& settings() const { return settings_; }
     const WeightStore& weights() const { return weights_; }
 
+    /// Whether processors take the path of our own (the default), or libtorch's operators as on a GPU.
+    void set_fused(bool fused) { weights_.fused = fused; }
+
   private:
+    bool takes_fused_path(const at::Tensor& motion) const { return weights_.fused && motion.is_cpu(); }
     at::Tensor linear(const at::Tensor& x, const std::string& name) const;
     at::Tensor convolved(const at::Tensor& x, std::size_t i) const;
     at::Tensor features(const at::Tensor& motion) const;
+    at::Tensor fused_features(const at::Tensor& motion) const;
+    at::Tensor node_bias(std::size_t i) const;
     at::Tensor pooled(const at::Tensor& features) const;
 
     DiscriminatorSettings settings_;
     WeightStore weights_;
     std::vector<NodeConvolution> convolutions_;
-    std::vector<at::Tensor> sums_;  ///< (hops, out, in) of every convolution
+    std::vector<at::Tensor> sums_;          ///< (hops, out, in) of every convolution
+    std::vector<cpu::NodeSums> node_sums_;  ///< the same for processors, and the last convolution's
 };
 
 }  // namespace actformer::model

@@ -53,13 +53,16 @@ at::Tensor Generator::positions() const {
     return at::cat({frames.unsqueeze(1).expand({t, p, half}), persons.unsqueeze(0).expand({t, p, half})}, 2);
 }
 
+/// Latents as tokens take them: where all persons share a token, so do their draws, side by side.
+at::Tensor Generator::per_token(const at::Tensor& latent) const {
+    if (settings_.interaction == Interaction::iformer) return latent.contiguous();
+    return latent.permute({0, 2, 1, 3}).reshape({latent.size(0), 1, latent.size(2), -1}).contiguous();
+}
+
 /// (N, P, T+1, W): the class first, then the frames, each with its position.
 at::Tensor Generator::tokens(const at::Tensor& latent, const at::Tensor& labels) const {
     const auto n = latent.size(0), t = latent.size(2), persons = std::int64_t{settings_.tokens_a_frame()};
-    const auto z = settings_.interaction == Interaction::concat
-                       ? latent.permute({0, 2, 1, 3}).reshape({n, 1, t, -1})
-                       : latent;
-    const auto frames = linear(z, "input");
+    const auto frames = linear(per_token(latent), "input");
     const auto classes = weights_.at("classes.weight").index_select(0, labels).view({n, 1, 1, -1});
     const auto all = at::cat({classes.expand({n, frames.size(1), 1, settings_.width}), frames}, 2);
     const auto places = positions().slice(0, 0, t + 1).permute({1, 0, 2});
@@ -83,6 +86,59 @@ at::Tensor Generator::block(const at::Tensor& x, const std::string& prefix) cons
     };
     const auto y = x + attention(norm(x, "norm1"), prefix);
     return y + linear(at::gelu(linear(norm(y, "norm2"), prefix + "up")), prefix + "down");
+}
+
+at::Tensor Generator::transformed(at::Tensor x) const {
+    const auto n = x.size(0), streams = x.size(1), tokens = x.size(2);
+    const auto blocks = interacting_blocks(settings_);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const auto prefix = fmt::format("blocks.{}.", i);
+        if (blocks[i])
+            x = block(x.transpose(1, 2).flatten(0, 1), prefix).view({n, tokens, streams, -1}).transpose(1, 2);
+        else
+            x = block(x.flatten(0, 1), prefix).view({n, streams, tokens, -1});
+    }
+    return x;
+}
+
+at::Tensor Generator::fused_tokens(const at::Tensor& latent, const at::Tensor& labels) const {
+    const auto z = per_token(latent);
+    return fused_embedding(z, weights_.layer("input", is_training()),
+                           weights_.at("classes.weight").index_select(0, labels),
+                           positions().slice(0, 0, z.size(2) + 1).contiguous());
+}
+
+at::Tensor Generator::fused_transformed(at::Tensor x) const {
+    const auto blocks = interacting_blocks(settings_);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const auto layer = [&](const char* name) {
+            return weights_.layer(fmt::format("blocks.{}.{}", i, name), is_training());
+        };
+        if (at::GradMode::is_enabled()) {
+            x = fused_attention(x, layer("norm1"), layer("qkv"), layer("proj"), settings_.heads, blocks[i]);
+            x = fused_mlp(x, layer("norm2"), layer("up"), layer("down"));
+        } else {
+            fused_attention_in_place(x, layer("norm1"), layer("qkv"), layer("proj"), settings_.heads,
+                                     blocks[i]);
+            fused_mlp_in_place(x, layer("norm2"), layer("up"), layer("down"));
+        }
+    }
+    return x;
+}
+
+/// x (N, S, T+1, W), S the tokens a frame.
+at::Tensor Generator::motion(const at::Tensor& x) const {
+    if (takes_fused_path(x) && settings_.body == Body::transformer && settings_.numbers == 3 &&
+        settings_.tokens_a_frame() == settings_.persons)
+        return fused_poses(x, weights_.layer("norm", is_training()), weights_.layer("head", is_training()),
+                           settings_.free_joint);
+    const auto n = x.size(0), t = x.size(2) - 1;
+    const auto normal =
+        at::layer_norm(x.slice(2, 1), {settings_.width}, weights_.normalised("norm.weight", is_training()),
+                       weights_.at("norm.bias"), norm_epsilon);
+    const auto shaped = this->shaped(poses(normal));  // (N, P, T, K, D)
+    return shaped.permute({0, 1, 4, 2, 3})
+        .reshape({n, settings_.persons * settings_.numbers, t, settings_.joints()});
 }
 
 /// x (N, T, nodes, in): every hop's linear map, then the fixed sums over nodes.
@@ -130,21 +186,8 @@ at::Tensor Generator::forward(const at::Tensor& latent, const at::Tensor& labels
                     settings_.prior.channels);
     if (t > settings_.frames)
         throw Error("{} frames: the generator was made for at most {}", t, settings_.frames);
-    auto x = tokens(latent, labels);
-    const auto blocks = interacting_blocks(settings_);
-    const auto streams = x.size(1);
-    for (std::size_t i = 0; i < blocks.size(); ++i) {
-        const auto prefix = fmt::format("blocks.{}.", i);
-        if (blocks[i])
-            x = block(x.transpose(1, 2).flatten(0, 1), prefix).view({n, t + 1, streams, -1}).transpose(1, 2);
-        else
-            x = block(x.flatten(0, 1), prefix).view({n, streams, t + 1, -1});
-    }
-    x = at::layer_norm(x.slice(2, 1), {settings_.width}, weights_.normalised("norm.weight", is_training()),
-                       weights_.at("norm.bias"), norm_epsilon);
-    const auto poses = shaped(this->poses(x));  // (N, P, T, K, D)
-    return poses.permute({0, 1, 4, 2, 3})
-        .reshape({n, settings_.persons * settings_.numbers, t, settings_.joints()});
+    return takes_fused_path(latent) ? motion(fused_transformed(fused_tokens(latent, labels)))
+                                    : motion(transformed(tokens(latent, labels)));
 }
 
 }  // namespace actformer::model

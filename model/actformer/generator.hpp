@@ -20,9 +20,18 @@ class Generator : public torch::nn::Module {
     const GeneratorSettings& settings() const { return settings_; }
     const WeightStore& weights() const { return weights_; }
 
+    /// Whether processors take the path of our own (the default), or libtorch's operators as on a GPU.
+    void set_fused(bool fused) { weights_.fused = fused; }
+
   private:
+    bool takes_fused_path(const at::Tensor& latent) const { return weights_.fused && latent.is_cpu(); }
     at::Tensor linear(const at::Tensor& x, const std::string& name) const;
+    at::Tensor per_token(const at::Tensor& latent) const;
     at::Tensor tokens(const at::Tensor& latent, const at::Tensor& labels) const;
+    at::Tensor transformed(at::Tensor x) const;
+    at::Tensor fused_tokens(const at::Tensor& latent, const at::Tensor& labels) const;
+    at::Tensor fused_transformed(at::Tensor x) const;
+    at::Tensor motion(const at::Tensor& x) const;
     at::Tensor positions() const;
     at::Tensor block(const at::Tensor& x, const std::string& prefix) const;
     at::Tensor attention(const at::Tensor& x, const std::string& prefix) const;

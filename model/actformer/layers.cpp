@@ -137,11 +137,11 @@ std::vector<NetworkWeight> discriminator_weights(const DiscriminatorSettings& s)
     for (std::size_t i = 0; i < convolutions.size(); ++i) {
         const auto& conv = convolutions[i];
         const std::int64_t nodes = conv.sums.inputs, hops = conv.sums.hops;
-        list.spectral(layer_name(i), {nodes, hops, conv.out, conv.in, conv.taps}, nodes * hops * conv.out,
+        list.spectral(layer_name(i), {nodes, hops, conv.out, conv.taps, conv.in}, nodes * hops * conv.out,
                       std::int64_t{conv.in} * conv.taps, conv.bias);
     }
     const std::int64_t coarse = convolutions.back().sums.outputs, features = s.features();
-    list.spectral("last", {features, features / 2, coarse, last_taps}, features,
+    list.spectral("last", {features, coarse, last_taps, features / 2}, features,
                   features / 2 * coarse * last_taps, true);
     if (s.persons_in == PersonsInD::selfatt) {
         list.linear("persons.qkv", 3 * features, features);

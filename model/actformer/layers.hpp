@@ -35,7 +35,7 @@ struct NetworkWeight {
 };
 
 /// One graph convolution of the discriminator: every (hop, input node) has its own temporal convolution, summed into the
-/// output nodes by `sums`. Its weight is (inputs, hops, out, in, taps).
+/// output nodes by `sums`. Its weight is (inputs, hops, out, taps, in).
 struct NodeConvolution {
     std::uint32_t in = 0, out = 0, taps = 0, stride = 1, padding = 0;
     bool bias = false;
@@ -49,7 +49,7 @@ struct NodeConvolution {
 /// Those before the last, full convolution.
 std::vector<NodeConvolution> node_convolutions(const DiscriminatorSettings& settings);
 
-/// The last convolution's: 4 frames at a stride of 2, padded by 1.
+/// The last convolution takes all nodes and 4 frames at a stride of 2, padded by 1: a weight (features, nodes, taps, in).
 constexpr std::uint32_t last_taps = 4;
 
 /// Channels of a graphconv body on the coarse, middle and fine graph.

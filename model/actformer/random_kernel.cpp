@@ -8,13 +8,11 @@
 namespace actformer::model::cpu {
 namespace {
 
-using Words = std::array<std::uint32_t, 4>;
-
 struct Key {
     std::uint32_t low, high;
 };
 
-inline Words philox(Words counter, Key key) {
+inline Words mixed(Words counter, Key key) {
     for (int round = 0; round < 10; ++round) {
         const auto a = std::uint64_t{0xD2511F53U} * counter[0], b = std::uint64_t{0xCD9E8D57U} * counter[2];
         counter = {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key.low, static_cast<std::uint32_t>(b),
@@ -40,8 +38,8 @@ Key key_of(const RandomPlace& place) {
 }
 
 inline Words words_at(Key key, std::uint64_t sample, std::uint32_t block) {
-    return philox({block, static_cast<std::uint32_t>(sample), static_cast<std::uint32_t>(sample >> 32), 0},
-                  key);
+    return mixed({block, static_cast<std::uint32_t>(sample), static_cast<std::uint32_t>(sample >> 32), 0},
+                 key);
 }
 
 /// In (0, 1].
@@ -59,8 +57,11 @@ inline void pair_of(std::uint32_t a, std::uint32_t b, float* to) {
 
 }  // namespace
 
-std::array<std::uint32_t, 4> random_words(const RandomPlace& place, std::uint64_t sample,
-                                          std::uint32_t block) {
+Words philox(Words counter, std::array<std::uint32_t, 2> key) {
+    return mixed(counter, {key[0], key[1]});
+}
+
+Words random_words(const RandomPlace& place, std::uint64_t sample, std::uint32_t block) {
     return words_at(key_of(place), sample, block);
 }
 

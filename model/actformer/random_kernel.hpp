@@ -6,6 +6,11 @@
 
 namespace actformer::model::cpu {
 
+using Words = std::array<std::uint32_t, 4>;
+
+/// The generator itself.
+Words philox(Words counter, std::array<std::uint32_t, 2> key);
+
 /// Where a stream of numbers is in the space of all: numbers of different places have nothing to do with each other.
 struct RandomPlace {
     std::uint64_t seed = 0, index = 0;
@@ -13,8 +18,7 @@ struct RandomPlace {
 };
 
 /// Four random words; place.index below 2^56.
-std::array<std::uint32_t, 4> random_words(const RandomPlace& place, std::uint64_t sample,
-                                          std::uint32_t block);
+Words random_words(const RandomPlace& place, std::uint64_t sample, std::uint32_t block);
 
 /// values (samples, count): standard normal numbers, those of sample first + i in row i.
 void normal_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t samples, std::int64_t count,

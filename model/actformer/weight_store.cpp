@@ -125,6 +125,7 @@ WeightStore::WeightStore(torch::nn::Module& module, const std::vector<NetworkWei
 at::Tensor WeightStore::normalised(const std::string& name, bool iterate) const {
     const auto& entry = entries_.at(name);
     if (entry.rows == 0) return entry.weight;
+    if (fused && entry.weight.is_cpu()) return fused_spectral(entry.weight, entry.u, entry.v, iterate);
     const auto matrix = entry.weight.view({entry.rows, -1});
     auto u = entry.u, v = entry.v;
     if (iterate) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "model/actformer/fused.hpp"
 #include "model/actformer/layers.hpp"
 
 namespace actformer::model {
@@ -27,8 +28,16 @@ class WeightStore {
     /// moves the singular vectors first, as in torch.nn.utils.spectral_norm; the gradient takes them for constants.
     at::Tensor normalised(const std::string& name, bool iterate) const;
 
+    /// Whether processors take the path of our own; off, everything runs in libtorch's operators (as on a GPU).
+    bool fused = true;
+
     /// The largest singular value as the vectors have it, without gradient.
     at::Tensor spectral_norm(const std::string& name) const;
+
+    /// A layer's weight, normalised, and its bias.
+    LinearTensors layer(const std::string& name, bool iterate) const {
+        return {normalised(name + ".weight", iterate), at(name + ".bias")};
+    }
 
   private:
     struct Entry {

@@ -3,42 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <vector>
 
+#include "tests/support/gradients.hpp"
+
 using namespace actformer::model;
+using namespace actformer::test;
 
 namespace {
 
 at::Tensor random(at::IntArrayRef shape) {
     return at::randn(shape, at::kDouble).set_requires_grad(true);
-}
-
-/// Gradients of sum(probe * function(inputs)) to a few numbers of every input, against central differences.
-void expect_gradients(const std::function<at::Tensor(const std::vector<at::Tensor>&)>& function,
-                      const std::vector<at::Tensor>& inputs) {
-    const auto probe = at::randn_like(function(inputs).detach());
-    const auto loss = [&] { return (function(inputs) * probe).sum(); };
-    loss().backward();
-    for (std::size_t which = 0; which < inputs.size(); ++which) {
-        auto input = inputs[which];
-        if (!input.requires_grad()) continue;
-        ASSERT_TRUE(input.grad().defined()) << "input " << which;
-        const auto grad = input.grad().contiguous();
-        const at::NoGradGuard no_gradients;
-        const auto step = std::max<std::int64_t>(1, input.numel() / 41);
-        for (std::int64_t i = 0; i < input.numel(); i += step) {
-            double& value = input.data_ptr<double>()[i];
-            const double kept = value, h = 1e-5;
-            value = kept + h;
-            const double above = loss().item<double>();
-            value = kept - h;
-            const double below = loss().item<double>();
-            value = kept;
-            EXPECT_NEAR(grad.data_ptr<double>()[i], (above - below) / (2 * h), 2e-6 * (1 + std::abs(above)))
-                << "input " << which << ", number " << i;
-        }
-    }
 }
 
 at::Tensor edges(const std::vector<std::array<int, 3>>& list) {
