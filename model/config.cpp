@@ -157,6 +157,13 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
     return best;
 }
 
+std::string model_named_in(const std::filesystem::path& file) try {
+    const auto root = YAML::LoadFile(file.string());
+    return root.IsMap() && root["model"] ? scalar(root["model"]) : "";
+} catch (const YAML::Exception&) {
+    return {};
+}
+
 Config::Config(std::string model, std::vector<Key> keys) : model_(std::move(model)), keys_(std::move(keys)) {
     for (const auto& key : keys_) values_.push_back(key.preset);
 }
@@ -174,6 +181,10 @@ std::size_t Config::index_of(const std::string& name, const std::string& where) 
                     fmt::join(names, ", "));
     }
     throw Error("{}: there is no key '{}'; did you mean '{}'?", where, ingest::printable(name), nearest);
+}
+
+bool Config::has(const std::string& name) const {
+    return std::any_of(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name == name; });
 }
 
 const Value& Config::value(const std::string& name) const {

@@ -40,6 +40,8 @@ class Config {
     /// Takes one "key=value" of the command line. Throws Error as load does.
     void override_with(const std::string& assignment);
 
+    bool has(const std::string& name) const;
+
     template <typename T>
     const T& get(const std::string& name) const {
         return std::get<T>(value(name));
@@ -60,6 +62,9 @@ class Config {
     std::vector<Key> keys_;
     std::vector<Value> values_;
 };
+
+/// What a configuration's line `model:` says; empty where there is none, or no such file.
+std::string model_named_in(const std::filesystem::path& file);
 
 /// The candidate that takes the fewest insertions, deletions, replacements and swaps to reach from `word`; empty where none
 /// comes near.
