@@ -16,7 +16,8 @@ struct Subprogram {
 };
 constexpr Subprogram subprograms[] = {
     {"render", "actformer-render", "Draw motions: a contact sheet (.png), a .gif or an .mp4"},
-    {"train", "actformer-train", "Train a recogniser"},
+    {"train", "actformer-train", "Train a recogniser or a generator"},
+    {"generate", "actformer-train", "Generate motions with a trained generator"},
     {"model", "actformer-train", "Print a configuration's layers, shapes and parameter counts"}};
 
 std::filesystem::path path_of(const Subprogram& sub) {
@@ -35,7 +36,8 @@ int become(const Subprogram& sub, char** argv) {
     wait_without_spinning();
     ::execv(path_of(sub).c_str(), argv);
     std::fprintf(stderr,
-                 "actformer: this build has no '%s': %s is not beside it (train and model need libtorch; see "
+                 "actformer: this build has no '%s': %s is not beside it (train, generate and model need "
+                 "libtorch; see "
                  "README)\n",
                  sub.command, sub.program);
     return 1;

@@ -11,10 +11,13 @@ namespace actformer::model {
 class FlatParameters {
   public:
     /// Moves float32 `parameters`, leaves that want gradients, into memory of its own; they stay the tensors they were.
-    explicit FlatParameters(std::vector<at::Tensor> parameters);
+    /// `remarks` numbers more lie behind the gradients, so that what is averaged over processes takes one message.
+    explicit FlatParameters(std::vector<at::Tensor> parameters, std::int64_t remarks = 0);
 
     at::Tensor& values() { return values_; }  ///< (count); parameters begin at whole vectors, zeros between
     at::Tensor& gradients() { return gradients_; }  ///< (count)
+    at::Tensor& remarks() { return remarks_; }      ///< (remarks)
+    at::Tensor& message() { return message_; }      ///< (count + remarks)
 
     /// Before a backward pass, which adds to the gradients.
     void zero_gradients();
