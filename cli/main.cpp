@@ -1,4 +1,3 @@
-#include <malloc.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -49,13 +48,8 @@ int main(int argc, char** argv) {
     for (const auto& sub : subprograms)
         if (argc > 1 && std::string_view(argv[1]) == sub.command) return become(sub, argv);
 
-    // Work goes batch by batch in buffers of the same sizes. Giving them back to the system in between would cost as much
-    // in page faults as reading the data does.
-    mallopt(M_MMAP_MAX, 0);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
-    mallopt(M_ARENA_MAX, 1);
-
     using namespace actformer::cli;
+    keep_freed_memory();
     return run_program(argc, argv, [](CLI::App& app) {
         add_devices(app);
         add_synth(app);

@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -15,6 +16,7 @@
 #include "ingest/motions_file.hpp"
 #include "model/actformer/gan_settings.hpp"
 #include "model/actformer/generator_trainer.hpp"
+#include "model/checkpoint.hpp"
 #include "tests/support/toy_dataset.hpp"
 
 using namespace actformer;
@@ -134,30 +136,30 @@ TEST_F(TrainGenerator, TwoProcessesAreOneWithTwiceTheBatch) {
     const auto of = [&](int rank) {
         return "env RANK=" + std::to_string(rank) + " WORLD_SIZE=2 LOCAL_RANK=" + std::to_string(rank) +
                " MASTER_ADDR=127.0.0.1 MASTER_PORT=" + port + " " ACTFORMER_PROGRAM " " +
-               line("two", "batch=3 epochs=1 --data-parallel");
+               line("two", "batch=18 discriminator_steps=1 epochs=1 --data-parallel");
     };
-    const auto two = run_command(of(0) + " & " + of(1) + "; wait $!");
+    const auto two = run_command(of(1) + " & " + of(0) + "; wait $!");
     if (two.output.find("this build has no Gloo") != std::string::npos) GTEST_SKIP() << two.output;
-    const auto one = train("one", "batch=6 epochs=1");
-    ASSERT_EQ(one.exit, 0) << one.output;
     ASSERT_TRUE(fs::exists(dir / "two/weights-last.h5")) << two.output;
+    const auto one = train("one", "batch=36 discriminator_steps=1 epochs=1");
+    ASSERT_EQ(one.exit, 0) << one.output;
+
+    const auto la = log_of(dir / "one"), lb = log_of(dir / "two");
+    EXPECT_NEAR(la[0].at("discriminator_loss"), lb[0].at("discriminator_loss"), 2e-6);
+    EXPECT_NEAR(la[0].at("generator_loss"), lb[0].at("generator_loss"), 1e-4);
+    // A first step of Adam moves every weight by the rate, 2e-4, in its gradient's direction. A few gradients are mere
+    // rounding, and their weights go either way; all others must agree.
     const Reader a(dir / "one/weights-last.h5"), b(dir / "two/weights-last.h5");
+    std::size_t all = 0, apart = 0;
     for (const auto& name : a.names()) {
         const auto x = a.read<float>(name), y = b.read<float>(name);
-        // Two steps of Adam at 2e-4 with beta1 = 0 move a weight by its gradient's sign: where that is rounding, by 8e-4 at
-        // most. All other weights agree to rounding.
-        std::size_t far = 0;
-        for (std::size_t i = 0; i < x.size(); ++i) {
-            EXPECT_NEAR(x[i], y[i], 1e-3) << name;
-            far += std::abs(x[i] - y[i]) > 2e-6F + 2e-5F * std::abs(x[i]);
+        for (std::size_t i = 0; i < x.size(); ++i, ++all) {
+            ASSERT_NEAR(x[i], y[i], 4.1e-4) << name;
+            apart += std::abs(x[i] - y[i]) > 1e-6F * (1 + std::abs(x[i]));
         }
-        EXPECT_LE(static_cast<double>(far), 0.02 * static_cast<double>(x.size()) + 1) << name;
     }
-    const auto la = log_of(dir / "one"), lb = log_of(dir / "two");
-    EXPECT_NEAR(la[0].at("discriminator_loss").get<double>(), lb[0].at("discriminator_loss").get<double>(),
-                1e-4);
-    EXPECT_NEAR(la[0].at("generator_loss").get<double>(), lb[0].at("generator_loss").get<double>(), 1e-4);
-    expect_refused(train("two", "batch=3"), {"by 2 processes", "another -o"});
+    EXPECT_LT(static_cast<double>(apart), 0.01 * static_cast<double>(all));
+    expect_refused(train("two", "batch=18 discriminator_steps=1"), {"by 2 processes", "another -o"});
 }
 
 TEST_F(TrainGenerator, KeepsARunToItsSettingsItsDataAndOneTraining) {
@@ -195,12 +197,18 @@ TEST_F(TrainGenerator, GoesBackBehindDamagedCheckpointsAndRefusesForeignOnes) {
 }
 
 TEST_F(TrainGenerator, StopsWhereTheLossesAreNoNumbers) {
-    const auto result =
-        train("run", "generator_rate=1 discriminator_rate=1 epochs=500 loss=wasserstein beta2=0");
-    expect_refused(result, {"stopped at step", "checkpoint of step", "kept"});
-    const auto checkpoint = newest(dir / "run");
-    if (!checkpoint.empty())
-        EXPECT_EQ(state_of(dir / "run" / checkpoint).first.dump().find("null"), std::string::npos);
+    ASSERT_EQ(train("run", "epochs=1").exit, 0);
+    const auto good = newest(dir / "run");
+    auto checkpoint = *model::newest_checkpoint(dir / "run", "generator", [](const std::string&) {});
+    checkpoint.done += 1;
+    checkpoint.arrays[0].values[0] = std::nanf("");
+    model::save_checkpoint(dir / "run", checkpoint);
+    const auto bad = newest(dir / "run");
+    ASSERT_NE(good, bad);
+    expect_refused(train("run", "epochs=4"),
+                   {"stopped at step 4", "no numbers", "checkpoint of step 3 is kept"});
+    EXPECT_EQ(newest(dir / "run"), bad);
+    EXPECT_TRUE(fs::exists(dir / "run" / good));
 }
 
 TEST_F(TrainGenerator, StopsWhereTheDiscriminatorIsCertain) {
@@ -210,16 +218,25 @@ TEST_F(TrainGenerator, StopsWhereTheDiscriminatorIsCertain) {
 }
 
 TEST_F(TrainGenerator, GoesOnWhereADiskIsFull) {
-    // A limit on the size of files stands for a full disk: checkpoints are larger, log lines smaller.
-    const auto result =
-        run_command("trap '' XFSZ; ulimit -f 8; " ACTFORMER_PROGRAM " " + line("run", "epochs=2"));
-    EXPECT_EQ(result.exit, 1);
-    EXPECT_NE(result.output.find("cannot be written"), std::string::npos) << result.output;
-    EXPECT_NE(result.output.find("training goes on"), std::string::npos) << result.output;
-    EXPECT_EQ(log_of(dir / "run").size(), 2U);
+    // A limit on the size of its files, set when it has begun, stands for a full disk: checkpoints are larger, log lines
+    // smaller.
+    const Child child(line("run", "epochs=100000 width=64"), at("output"));
+    const auto wait_for = [&](const auto& there) {
+        for (int i = 0; i < 30000 && !there(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_TRUE(there()) << read_file(at("output"));
+    };
+    wait_for([&] { return fs::exists(dir / "run/log.jsonl"); });
+    const rlimit small{1 << 17, 1 << 17};
+    ASSERT_EQ(::prlimit(child.pid(), RLIMIT_FSIZE, &small, nullptr), 0);
+    wait_for([&] { return read_file(at("output")).find("training goes on") != std::string::npos; });
+    const auto checkpoint = newest(dir / "run");
+    const auto logged = fs::file_size(dir / "run/log.jsonl");
+    wait_for([&] { return fs::file_size(dir / "run/log.jsonl") > logged; });
+    EXPECT_EQ(newest(dir / "run"), checkpoint);
+    EXPECT_NE(read_file(at("output")).find("cannot be written"), std::string::npos)
+        << read_file(at("output"));
     for (const auto& entry : fs::directory_iterator(dir / "run"))
-        EXPECT_FALSE(entry.path().filename().string().starts_with("checkpoint-")) << entry.path();
-    EXPECT_EQ(train("run", "epochs=2").exit, 0);
+        EXPECT_EQ(entry.path().string().find("partial"), std::string::npos) << entry.path();
 }
 
 TEST_F(TrainGenerator, RefusesWhatCannotBeTrained) {
@@ -300,7 +317,7 @@ TEST_F(Generate, RefusesWhatItCannotMake) {
     recogniser();
     expect_refused(with("recogniser.h5"), {"recogniser.h5: not the weights of a generator"});
     auto bytes = read_file(dir / "run/weights-last.h5");
-    write_file(dir / "cut.h5", bytes.substr(0, bytes.size() / 2));
+    write_file(dir / "cut.h5", bytes.substr(0, 20000));
     expect_refused(with("cut.h5"), {"cut.h5"});
 }
 

@@ -38,9 +38,10 @@ inline CommandResult run_actformer(const std::string& arguments) {
 /// The same program running beside the test, gone at the latest with this.
 class Child {
   public:
-    explicit Child(const std::string& arguments) : pid_(::fork()) {
+    explicit Child(const std::string& arguments, const std::string& output = "/dev/null") : pid_(::fork()) {
         if (pid_ != 0) return;
-        const auto command = "exec " ACTFORMER_PROGRAM " " + arguments + " 2>/dev/null >/dev/null";
+        const auto command =
+            "trap '' XFSZ; exec " ACTFORMER_PROGRAM " " + arguments + " >" + output + " 2>&1";
         ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
         ::_exit(127);
     }
@@ -50,6 +51,8 @@ class Child {
     }
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
+
+    pid_t pid() const { return pid_; }
 
     /// Its exit code; 128 and the signal's number where one ended it.
     int wait() {
