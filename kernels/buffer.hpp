@@ -15,11 +15,12 @@ class Buffer {
   public:
     Buffer() = default;
 
-    Buffer(Device& device, std::size_t count) : device_(&device), count_(count) {
+    /// `spare` values behind the others may be read by kernels, which make no use of them.
+    Buffer(Device& device, std::size_t count, std::size_t spare = 0) : device_(&device), count_(count) {
         try {
             // OpenCL has no empty buffers; one spare value stands for none.
-            memory_ =
-                cl::Buffer(device.context(), CL_MEM_READ_WRITE, std::max<std::size_t>(count, 1) * sizeof(T));
+            memory_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE,
+                                 std::max<std::size_t>(count + spare, 1) * sizeof(T));
         } catch (const cl::Error& e) {
             raise(device.info(), fmt::format("allocating {} bytes", count * sizeof(T)), e);
         }
