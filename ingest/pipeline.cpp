@@ -30,7 +30,11 @@ double seconds_since(Clock::time_point start) {
 class Ingest {
   public:
     Ingest(const IngestRequest& request, const Format& format, kernels::Device& device)
-        : request_(request), format_(format), device_(device), threads_(thread_count(request.threads)) {
+        : request_(request),
+          format_(format),
+          device_(device),
+          threads_(thread_count(request.threads)),
+          texts_(threads_) {
         for (const auto& header : format.datasets()) {
             shards_.emplace_back(header);
             shard_count_.push_back(0);
@@ -130,9 +134,8 @@ class Ingest {
     }
 
     void parse(Group& group) {
-        std::vector<std::vector<char>> scratch(threads_);
         parallel_for(group.items.size(), threads_,
-                     [&](std::size_t i, unsigned thread) { parse(group.items[i], scratch[thread]); });
+                     [&](std::size_t i, unsigned thread) { parse(group.items[i], texts_[thread]); });
     }
 
     void parse(Item& item, std::vector<char>& scratch) const {
@@ -271,6 +274,8 @@ class Ingest {
     const Format& format_;
     kernels::Device& device_;
     unsigned threads_;
+    std::vector<std::vector<char>>
+        texts_;  ///< a thread's file in hand; kept, so that its memory is asked for once
     IngestSummary summary_;
     std::vector<ShardBuilder> shards_;      ///< of the tranche in hand, one a dataset
     std::vector<std::size_t> shard_count_;  ///< shards written so far, one a dataset
