@@ -398,8 +398,8 @@ double multiplied_operations(const Weights& weights, std::uint32_t frames) {
         const double in = weights.width_before(i), out = weights.widths[i], joints = weights.joints();
         const auto after = kernels::strided(frames, stgcn_strides[i]);
         const auto filter = kernels::filtering(stgcn_strides[i]);
-        const double tiles = joints * ((after + filter.tile - 1) / filter.tile);
-        sum += 2 * panels * frames * in * out + 2 * tiles * filter.points_in * out * out;
+        const auto tiles_a_joint = (after + filter.tile - 1) / filter.tile;
+        sum += 2 * panels * frames * in * out + 2 * joints * tiles_a_joint * filter.points_in * out * out;
         if (weights.has_residual_convolution(i)) sum += 2 * joints * after * in * out;
         frames = after;
     }
