@@ -9,6 +9,7 @@
 #include "ingest/groups.hpp"
 #include "ingest/journal.hpp"
 #include "ingest/parallel.hpp"
+#include "ingest/parsers.hpp"
 #include "ingest/record.hpp"
 #include "ingest/shard.hpp"
 #include "ingest/text/printable.hpp"
@@ -19,7 +20,8 @@ namespace actformer::ingest {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t groups_ahead = 2;  // parsed and waiting to be cleaned: enough to ride out a slow one
+constexpr std::size_t groups_at_once = 2;  // in memory as text
+constexpr std::size_t groups_ahead = 2;    // parsed and waiting to be cleaned: enough to ride out a slow one
 
 using Clock = std::chrono::steady_clock;
 
@@ -30,11 +32,7 @@ double seconds_since(Clock::time_point start) {
 class Ingest {
   public:
     Ingest(const IngestRequest& request, const Format& format, kernels::Device& device)
-        : request_(request),
-          format_(format),
-          device_(device),
-          threads_(thread_count(request.threads)),
-          texts_(threads_) {
+        : request_(request), format_(format), device_(device), threads_(thread_count(request.threads)) {
         for (const auto& header : format.datasets()) {
             shards_.emplace_back(header);
             shard_count_.push_back(0);
@@ -112,30 +110,30 @@ class Ingest {
         for (const auto& [dataset, shard] : tranche.shards) ++shard_count_[dataset];
     }
 
-    /// Parsing a group, cleaning those before it and writing the tranche before that overlap.
+    /// Parsing some groups, cleaning those before them and writing the tranche before that overlap.
     void read_everything(Workplace& workplace, Source& source) {
         Groups groups(source, static_cast<double>(source.bytes_total()));
         Worker writer(1), cleaner(groups_ahead);
+        Parsers parsers(threads_, [this](Item& item, std::vector<char>& text) { parse(item, text); });
+        const auto hand_on = [&] {
+            cleaner.add([this, &workplace, &writer, g = parsers.take()]() mutable {
+                clean(g);
+                if (g.ends_tranche) commit(workplace, writer);
+                if (request_.progress) request_.progress(g.fraction, clips_done_);
+            });
+        };
         for (;;) {
             Group group;
             const auto start = Clock::now();
             const bool any = groups.next(group);
             summary_.seconds.walk += seconds_since(start);
             if (!any) break;
-            parse(group);
-            cleaner.add([this, &workplace, &writer, g = std::move(group)]() mutable {
-                clean(g);
-                if (g.ends_tranche) commit(workplace, writer);
-                if (request_.progress) request_.progress(g.fraction, clips_done_);
-            });
+            parsers.add(std::move(group));
+            if (parsers.groups() == groups_at_once) hand_on();
         }
+        while (parsers.groups() > 0) hand_on();
         cleaner.finish();
         writer.finish();
-    }
-
-    void parse(Group& group) {
-        parallel_for(group.items.size(), threads_,
-                     [&](std::size_t i, unsigned thread) { parse(group.items[i], texts_[thread]); });
     }
 
     void parse(Item& item, std::vector<char>& scratch) const {
@@ -274,8 +272,6 @@ class Ingest {
     const Format& format_;
     kernels::Device& device_;
     unsigned threads_;
-    std::vector<std::vector<char>>
-        texts_;  ///< a thread's file in hand; kept, so that its memory is asked for once
     IngestSummary summary_;
     std::vector<ShardBuilder> shards_;      ///< of the tranche in hand, one a dataset
     std::vector<std::size_t> shard_count_;  ///< shards written so far, one a dataset
