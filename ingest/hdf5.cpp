@@ -1,9 +1,11 @@
 #include "ingest/hdf5.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <utility>
 
+#include "ingest/fletcher32.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest::hdf5 {
@@ -258,21 +260,33 @@ void Writer::write_from(const std::string& name, hid_t type, const Shape& shape,
         throw Error("HDF5: writing '{}' failed; is there space left?", name);
 }
 
+// Whole chunks go past the library's filters and chunk cache, which copy every byte more often than all else that is done to it.
 void Writer::write_pieces(const std::string& name, const Shape& shape,
                           const std::vector<std::span<const float>>& pieces, hsize_t rows_a_chunk) {
     const auto set = create(name, H5T_NATIVE_FLOAT, shape, rows_a_chunk);
-    const Handle space(H5Dget_space(set.get()), H5Sclose);
-    const auto row = std::accumulate(shape.begin() + 1, shape.end(), hsize_t{1}, std::multiplies<>());
-    Shape start(shape.size(), 0), part = shape;
-    for (const auto& piece : pieces) {
-        part[0] = piece.size() / row;
-        if (part[0] == 0) continue;
-        const Handle memory(H5Screate_simple(static_cast<int>(part.size()), part.data(), nullptr), H5Sclose);
-        H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
-        if (H5Dwrite(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, piece.data()) < 0)
+    const auto row = std::accumulate(shape.begin() + 1, shape.end(), std::size_t{1}, std::multiplies<>());
+    const std::size_t numbers = std::min(rows_a_chunk, shape[0]) * row;
+    std::vector<float> chunk(numbers + 1);  // the checksum goes behind
+    Shape at(shape.size(), 0);
+    std::size_t filled = 0;
+    const auto write_chunk = [&] {
+        std::fill(chunk.begin() + static_cast<std::ptrdiff_t>(filled), chunk.end(), 0.0F);
+        chunk.back() = std::bit_cast<float>(fletcher32(std::span(chunk).first(numbers)));
+        if (H5Dwrite_chunk(set.get(), H5P_DEFAULT, 0, at.data(), chunk.size() * sizeof(float), chunk.data()) <
+            0)
             throw Error("HDF5: writing '{}' failed; is there enough memory?", name);
-        start[0] += part[0];
-    }
+        at[0] += rows_a_chunk;
+        filled = 0;
+    };
+    for (auto piece : pieces)
+        while (!piece.empty()) {
+            const auto part = piece.first(std::min(piece.size(), numbers - filled));
+            std::copy(part.begin(), part.end(), chunk.begin() + static_cast<std::ptrdiff_t>(filled));
+            piece = piece.subspan(part.size());
+            filled += part.size();
+            if (filled == numbers) write_chunk();
+        }
+    if (filled > 0) write_chunk();
 }
 
 void Writer::write_rows(const std::string& name, const Shape& shape, std::uint64_t first,

@@ -105,9 +105,13 @@ void Training::say_what_is_missing() const {
     std::vector<std::string> missing;
     for (std::size_t c = 0; c < counts.size(); ++c)
         if (counts[c] == 0) missing.push_back(dataset_.header().classes[c]);
-    if (!missing.empty())
-        say(fmt::format("split {} has no clip of {} of the {} classes, which will not be recognised: {}",
-                        settings_.train_split, missing.size(), counts.size(), fmt::join(missing, ", ")));
+    if (missing.empty()) return;
+    constexpr std::size_t named = 8;
+    const auto more = missing.size() > named ? fmt::format(" and {} more", missing.size() - named) : "";
+    const auto all = missing.size();
+    missing.resize(std::min(all, named));
+    say(fmt::format("split {} has no clip of {} of the {} classes, which will not be recognised: {}{}",
+                    settings_.train_split, all, counts.size(), fmt::join(missing, ", "), more));
 }
 
 void Training::resume() {
