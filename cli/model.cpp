@@ -9,6 +9,7 @@
 #include "cli/format.hpp"
 #include "ingest/dataset.hpp"
 #include "kernels/error.hpp"
+#include "model/actformer/gan_settings.hpp"
 #include "model/actformer/layers.hpp"
 #include "model/recogniser_settings.hpp"
 

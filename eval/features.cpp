@@ -106,6 +106,18 @@ void append_motion(const ingest::hdf5::Reader& file, const std::string& where, c
                 to.push_back(stored[(c * shape[1] + k) * shape[2] + t]);
 }
 
+/// Room for as many windows as asked for, or as the device's memory holds.
+kernels::Batch make_batch(const kernels::ClipStore& clips, std::size_t samples, std::uint32_t window) {
+    while (true) {
+        try {
+            return {clips, static_cast<std::uint32_t>(samples), window};
+        } catch (const OutOfMemory&) {
+            if (samples == 1) throw;
+            samples /= 2;
+        }
+    }
+}
+
 FeaturesSummary features_of_motions(const FeaturesRequest& request, const Weights& weights,
                                     kernels::Device& device, const Tell& tell) {
     const ingest::hdf5::Reader input(request.input);
@@ -147,11 +159,11 @@ FeaturesSummary features_of_dataset(const FeaturesRequest& request, const Weight
     const auto view = load_view(device, dataset, request.split);
     const auto windows = kernels::consecutive_windows(view.store.table().frames, request.window);
     const kernels::WindowCutter cutter(view.store, windows);
-    kernels::Batch batch(view.store, request.batch, request.window);
+    auto batch = make_batch(view.store, std::min<std::size_t>(request.batch, windows.size()), request.window);
     Recogniser recogniser(device, weights, tiles_for(device, request.batch));
     FeaturesFile out(request.out, windows.size(), weights.features(), weights.classes);
     Hits hits;
-    for (std::size_t first = 0; first < windows.size(); first += request.batch) {
+    for (std::size_t first = 0; first < windows.size(); first += batch.filled()) {
         cutter.cut(first, batch);
         const auto got = recogniser.recognise(batch.values(), batch.filled(), request.window);
         out.add(first, got.features, got.logits);

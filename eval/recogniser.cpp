@@ -260,8 +260,10 @@ std::uint32_t Recogniser::Network::reserve(std::uint32_t sequences, std::uint32_
             space = {};
             space = Workspace(*device, wanted);
             return sequences;
-        } catch (const OutOfMemory&) {
-            if (sequences == 1) throw;
+        } catch (const OutOfMemory& e) {
+            if (sequences == 1)
+                throw OutOfMemory("{}; {} frames are too many there for the recogniser, fewer may do",
+                                  e.what(), frames);
             sequences /= 2;
             most_frames = std::size_t{sequences} * frames;
         }
@@ -349,7 +351,18 @@ Recognised Recogniser::recognise(std::span<const float> motions, std::uint32_t s
     if (motions.size() != expected)
         throw Error("{} numbers for {} motions of {} frames, where {} are expected", motions.size(),
                     sequences, frames, expected);
-    return recognise(Buffer<float>(*net.device, motions).memory(), sequences, frames);
+    try {
+        return recognise(Buffer<float>(*net.device, motions).memory(), sequences, frames);
+    } catch (const OutOfMemory&) {
+        if (sequences < 2) throw;
+    }
+    const auto half = sequences / 2;
+    const auto middle = expected / sequences * half;
+    auto out = recognise(motions.first(middle), half, frames);
+    const auto rest = recognise(motions.subspan(middle), sequences - half, frames);
+    out.features.insert(out.features.end(), rest.features.begin(), rest.features.end());
+    out.logits.insert(out.logits.end(), rest.logits.begin(), rest.logits.end());
+    return out;
 }
 
 void Recogniser::watch(std::function<void(std::size_t, Step)> probe) {
@@ -398,8 +411,8 @@ double multiplied_operations(const Weights& weights, std::uint32_t frames) {
         const double in = weights.width_before(i), out = weights.widths[i], joints = weights.joints();
         const auto after = kernels::strided(frames, stgcn_strides[i]);
         const auto filter = kernels::filtering(stgcn_strides[i]);
-        const double tiles = joints * ((after + filter.tile - 1) / filter.tile);
-        sum += 2 * panels * frames * in * out + 2 * tiles * filter.points_in * out * out;
+        const auto tiles_a_joint = (after + filter.tile - 1) / filter.tile;
+        sum += 2 * panels * frames * in * out + 2 * joints * tiles_a_joint * filter.points_in * out * out;
         if (weights.has_residual_convolution(i)) sum += 2 * joints * after * in * out;
         frames = after;
     }

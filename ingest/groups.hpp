@@ -11,7 +11,7 @@
 namespace actformer::ingest {
 
 // A tranche is what one kill can lose, and what one shard a dataset is made of; a group is what is in memory as text.
-inline constexpr std::uint64_t files_a_tranche = 4096, bytes_a_tranche = std::uint64_t{384} << 20;
+inline constexpr std::uint64_t files_a_tranche = 4096, bytes_a_tranche = std::uint64_t{96} << 20;
 inline constexpr std::uint64_t files_a_group = 256, bytes_a_group = std::uint64_t{48} << 20;
 
 /// One raw file on its way through a group.

@@ -1,9 +1,11 @@
 #include "ingest/hdf5.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <utility>
 
+#include "ingest/fletcher32.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest::hdf5 {
@@ -26,6 +28,30 @@ Handle string_type(std::size_t size) {
     H5Tset_size(type.get(), std::max<std::size_t>(size, 1));
     H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
     return type;
+}
+
+/// `count` strings of `size` bytes, ended by zeros where they are shorter.
+std::vector<std::string> unpacked(const std::vector<char>& text, std::size_t count, std::size_t size) {
+    std::vector<std::string> values;
+    values.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const char* begin = text.data() + i * size;
+        values.emplace_back(begin, std::find(begin, begin + size, '\0'));
+    }
+    return values;
+}
+
+struct Packed {
+    std::size_t size = 1;
+    std::string text;
+};
+
+Packed packed(const std::vector<std::string>& values) {
+    Packed all;
+    for (const auto& value : values) all.size = std::max(all.size, value.size());
+    all.text.resize(values.size() * all.size, '\0');
+    for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(all.text.data() + i * all.size, all.size);
+    return all;
 }
 
 herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* names) {
@@ -133,27 +159,57 @@ std::vector<std::string> Reader::read_strings(const std::string& name) const {
     std::vector<char> text(count * size);
     if (H5Dread(set.get(), stored.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
         throw Error("{}: '{}' cannot be read: damaged", path_.string(), name);
-    std::vector<std::string> values;
-    values.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const char* begin = text.data() + i * size;
-        values.emplace_back(begin, std::find(begin, begin + size, '\0'));
+    return unpacked(text, count, size);
+}
+
+struct Reader::Attribute {
+    Handle handle, type;
+    std::size_t count = 0;
+
+    void read(hid_t as, void* to, const std::string& where) const {
+        if (count > 0 && H5Aread(handle.get(), as, to) < 0) throw Error("{} cannot be read: damaged", where);
     }
-    return values;
+};
+
+bool Reader::has_attribute(const std::string& name) const {
+    return H5Aexists(file_.get(), name.c_str()) > 0;
+}
+
+Reader::Attribute Reader::open_attribute(const std::string& name, H5T_class_t kind, const char* what) const {
+    if (!has_attribute(name)) throw Error("{}: has no attribute '{}'", path_.string(), name);
+    Attribute attribute{Handle(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose), {}, 0};
+    attribute.type = Handle(H5Aget_type(attribute.handle.get()), H5Tclose);
+    const Handle space(H5Aget_space(attribute.handle.get()), H5Sclose);
+    if (!attribute.type || H5Tget_class(attribute.type.get()) != kind || !space)
+        throw Error("{}: attribute '{}' holds no {}", path_.string(), name, what);
+    attribute.count =
+        static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0));
+    return attribute;
 }
 
 std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {
-    if (H5Aexists(file_.get(), name.c_str()) <= 0)
-        throw Error("{}: has no attribute '{}'", path_.string(), name);
-    const Handle attribute(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
-    const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
-    if (!type || H5Tget_class(type.get()) != H5T_INTEGER || !space)
-        throw Error("{}: attribute '{}' holds no whole numbers", path_.string(), name);
-    std::vector<std::int64_t> values(
-        static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
-    if (!values.empty() && H5Aread(attribute.get(), H5T_NATIVE_INT64, values.data()) < 0)
-        throw Error("{}: attribute '{}' cannot be read: damaged", path_.string(), name);
+    const auto attribute = open_attribute(name, H5T_INTEGER, "whole numbers");
+    std::vector<std::int64_t> values(attribute.count);
+    attribute.read(H5T_NATIVE_INT64, values.data(), fmt::format("{}: attribute '{}'", path_.string(), name));
     return values;
+}
+
+std::vector<float> Reader::attribute_floats(const std::string& name) const {
+    const auto attribute = open_attribute(name, H5T_FLOAT, "numbers");
+    std::vector<float> values(attribute.count);
+    attribute.read(H5T_NATIVE_FLOAT, values.data(), fmt::format("{}: attribute '{}'", path_.string(), name));
+    return values;
+}
+
+std::vector<std::string> Reader::attribute_texts(const std::string& name) const {
+    const auto attribute = open_attribute(name, H5T_STRING, "text");
+    if (H5Tis_variable_str(attribute.type.get()) != 0)
+        throw Error("{}: attribute '{}' holds no fixed-length strings", path_.string(), name);
+    const auto size = H5Tget_size(attribute.type.get());
+    std::vector<char> text(attribute.count * size);
+    attribute.read(attribute.type.get(), text.data(),
+                   fmt::format("{}: attribute '{}'", path_.string(), name));
+    return unpacked(text, attribute.count, size);
 }
 
 Writer::Writer(std::size_t expected_bytes) {
@@ -204,21 +260,33 @@ void Writer::write_from(const std::string& name, hid_t type, const Shape& shape,
         throw Error("HDF5: writing '{}' failed; is there space left?", name);
 }
 
+// Whole chunks go past the library's filters and chunk cache, which copy every byte more often than all else that is done to it.
 void Writer::write_pieces(const std::string& name, const Shape& shape,
                           const std::vector<std::span<const float>>& pieces, hsize_t rows_a_chunk) {
     const auto set = create(name, H5T_NATIVE_FLOAT, shape, rows_a_chunk);
-    const Handle space(H5Dget_space(set.get()), H5Sclose);
-    const auto row = std::accumulate(shape.begin() + 1, shape.end(), hsize_t{1}, std::multiplies<>());
-    Shape start(shape.size(), 0), part = shape;
-    for (const auto& piece : pieces) {
-        part[0] = piece.size() / row;
-        if (part[0] == 0) continue;
-        const Handle memory(H5Screate_simple(static_cast<int>(part.size()), part.data(), nullptr), H5Sclose);
-        H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
-        if (H5Dwrite(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, piece.data()) < 0)
+    const auto row = std::accumulate(shape.begin() + 1, shape.end(), std::size_t{1}, std::multiplies<>());
+    const std::size_t numbers = std::min(rows_a_chunk, shape[0]) * row;
+    std::vector<float> chunk(numbers + 1);  // the checksum goes behind
+    Shape at(shape.size(), 0);
+    std::size_t filled = 0;
+    const auto write_chunk = [&] {
+        std::fill(chunk.begin() + static_cast<std::ptrdiff_t>(filled), chunk.end(), 0.0F);
+        chunk.back() = std::bit_cast<float>(fletcher32(std::span(chunk).first(numbers)));
+        if (H5Dwrite_chunk(set.get(), H5P_DEFAULT, 0, at.data(), chunk.size() * sizeof(float), chunk.data()) <
+            0)
             throw Error("HDF5: writing '{}' failed; is there enough memory?", name);
-        start[0] += part[0];
-    }
+        at[0] += rows_a_chunk;
+        filled = 0;
+    };
+    for (auto piece : pieces)
+        while (!piece.empty()) {
+            const auto part = piece.first(std::min(piece.size(), numbers - filled));
+            std::copy(part.begin(), part.end(), chunk.begin() + static_cast<std::ptrdiff_t>(filled));
+            piece = piece.subspan(part.size());
+            filled += part.size();
+            if (filled == numbers) write_chunk();
+        }
+    if (filled > 0) write_chunk();
 }
 
 void Writer::write_rows(const std::string& name, const Shape& shape, std::uint64_t first,
@@ -239,11 +307,8 @@ void Writer::write_rows(const std::string& name, const Shape& shape, std::uint64
 }
 
 void Writer::write_strings(const std::string& name, const std::vector<std::string>& values) {
-    std::size_t size = 1;
-    for (const auto& value : values) size = std::max(size, value.size());
-    std::string packed(values.size() * size, '\0');
-    for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(packed.data() + i * size, size);
-    write_from(name, string_type(size).get(), {values.size()}, packed.data(), 0);
+    const auto all = packed(values);
+    write_from(name, string_type(all.size).get(), {values.size()}, all.text.data(), 0);
 }
 
 void Writer::attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value) {
@@ -266,6 +331,19 @@ void Writer::attribute(const std::string& name, const std::vector<std::int64_t>&
     const hsize_t count = values.size();
     attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
                    values.data());
+}
+
+void Writer::attribute(const std::string& name, const std::vector<float>& values) {
+    const hsize_t count = values.size();
+    attribute_from(name, H5T_NATIVE_FLOAT, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
+                   values.data());
+}
+
+void Writer::attribute(const std::string& name, const std::vector<std::string>& values) {
+    const auto all = packed(values);
+    const hsize_t count = values.size();
+    attribute_from(name, string_type(all.size).get(), Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
+                   all.text.data());
 }
 
 void Writer::image(const std::function<void(std::string_view)>& use) {

@@ -1,7 +1,6 @@
 #include "ingest/pipeline.hpp"
 
 #include <chrono>
-#include <future>
 #include <set>
 
 #include "ingest/checksum.hpp"
@@ -10,14 +9,19 @@
 #include "ingest/groups.hpp"
 #include "ingest/journal.hpp"
 #include "ingest/parallel.hpp"
+#include "ingest/parsers.hpp"
 #include "ingest/record.hpp"
 #include "ingest/shard.hpp"
 #include "ingest/text/printable.hpp"
+#include "ingest/worker.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr std::size_t groups_at_once = 2;  // in memory as text
+constexpr std::size_t groups_ahead = 2;    // parsed and waiting to be cleaned: enough to ride out a slow one
 
 using Clock = std::chrono::steady_clock;
 
@@ -53,7 +57,6 @@ class Ingest {
             read_everything(workplace, source);
             finish(workplace, wanted);
         } catch (const std::exception& e) {
-            if (writing_.valid()) writing_.wait();
             if (workplace.finished().empty()) {
                 workplace.discard();
                 throw;
@@ -107,34 +110,30 @@ class Ingest {
         for (const auto& [dataset, shard] : tranche.shards) ++shard_count_[dataset];
     }
 
-    /// Parsing a group, cleaning the one before it and writing the tranche before that overlap.
+    /// Parsing some groups, cleaning those before them and writing the tranche before that overlap.
     void read_everything(Workplace& workplace, Source& source) {
         Groups groups(source, static_cast<double>(source.bytes_total()));
-        std::future<void> cleaning;
-        Group group;
-        const auto walked = [&] {
+        Worker writer(1), cleaner(groups_ahead);
+        Parsers parsers(threads_, [this](Item& item, std::vector<char>& text) { parse(item, text); });
+        const auto hand_on = [&] {
+            cleaner.add([this, &workplace, &writer, g = parsers.take()]() mutable {
+                clean(g);
+                if (g.ends_tranche) commit(workplace, writer);
+                if (request_.progress) request_.progress(g.fraction, clips_done_);
+            });
+        };
+        for (;;) {
+            Group group;
             const auto start = Clock::now();
             const bool any = groups.next(group);
             summary_.seconds.walk += seconds_since(start);
-            return any;
-        };
-        while (walked()) {
-            parse(group);
-            if (cleaning.valid()) cleaning.get();
-            cleaning = std::async(std::launch::async, [this, &workplace, g = std::move(group)]() mutable {
-                clean(g);
-                if (g.ends_tranche) commit(workplace);
-                if (request_.progress) request_.progress(g.fraction, clips_done_);
-            });
+            if (!any) break;
+            parsers.add(std::move(group));
+            if (parsers.groups() == groups_at_once) hand_on();
         }
-        if (cleaning.valid()) cleaning.get();
-        if (writing_.valid()) writing_.get();
-    }
-
-    void parse(Group& group) {
-        std::vector<std::vector<char>> scratch(threads_);
-        parallel_for(group.items.size(), threads_,
-                     [&](std::size_t i, unsigned thread) { parse(group.items[i], scratch[thread]); });
+        while (parsers.groups() > 0) hand_on();
+        cleaner.finish();
+        writer.finish();
     }
 
     void parse(Item& item, std::vector<char>& scratch) const {
@@ -206,21 +205,20 @@ class Ingest {
     }
 
     /// Ends a tranche: its shards go to disk and it is noted down, while the next one is read.
-    void commit(Workplace& workplace) {
-        if (writing_.valid()) writing_.get();
+    void commit(Workplace& workplace, Worker& writer) {
         tranche_.fingerprint = fingerprint_;
         std::vector<ShardBuilder> shards;
         for (const auto& header : format_.datasets()) shards.emplace_back(header);
         shards.swap(shards_);
-        writing_ = std::async(std::launch::async, [this, &workplace, shards = std::move(shards),
-                                                   tranche = std::exchange(tranche_, {})]() mutable {
-            const auto start = Clock::now();
-            for (std::size_t d = 0; d < shards.size(); ++d)
-                if (!shards[d].empty())
-                    tranche.shards.emplace_back(d, write(workplace, d, shards[d], tranche.fingerprint));
-            workplace.finish(std::move(tranche));
-            summary_.seconds.write += seconds_since(start);
-        });
+        writer.add(
+            [this, &workplace, shards = std::move(shards), tranche = std::exchange(tranche_, {})]() mutable {
+                const auto start = Clock::now();
+                for (std::size_t d = 0; d < shards.size(); ++d)
+                    if (!shards[d].empty())
+                        tranche.shards.emplace_back(d, write(workplace, d, shards[d], tranche.fingerprint));
+                workplace.finish(std::move(tranche));
+                summary_.seconds.write += seconds_since(start);
+            });
     }
 
     ShardEntry write(const Workplace& workplace, std::size_t dataset, const ShardBuilder& shard,
@@ -277,7 +275,6 @@ class Ingest {
     IngestSummary summary_;
     std::vector<ShardBuilder> shards_;      ///< of the tranche in hand, one a dataset
     std::vector<std::size_t> shard_count_;  ///< shards written so far, one a dataset
-    std::future<void> writing_;             ///< the tranche before
     Tranche tranche_;
     std::string fingerprint_;
     std::unordered_set<std::string> names_;

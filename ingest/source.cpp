@@ -2,12 +2,15 @@
 
 #include <archive.h>
 #include <archive_entry.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "ingest/checksum.hpp"
 #include "ingest/file.hpp"
+#include "ingest/parallel.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest {
@@ -117,22 +120,35 @@ class Archive {
 };
 
 struct Item {
-    fs::path path;
-    std::uint64_t bytes = 0;
+    std::string path;
+    std::size_t given = 0;  ///< which of the RAW paths it lies below, or is
     bool archive = false;
+    std::uint64_t bytes = 0;
+    std::int64_t changed = 0;  ///< nanoseconds
 };
 
-std::vector<Item> files_below(const fs::path& folder, std::string_view extension) {
-    std::vector<Item> found;
+void add_files_below(const fs::path& folder, std::size_t given, std::string_view extension,
+                     std::vector<Item>& items) {
+    const auto before = static_cast<std::ptrdiff_t>(items.size());
     std::error_code error;
     for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        std::error_code ignored;  // a file that vanishes or cannot be looked at is rejected when it is read
-        if (is_wanted(it->path().string(), extension) && !it->is_directory(ignored))
-            found.push_back({it->path(), it->is_regular_file(ignored) ? it->file_size(ignored) : 0, false});
+        std::error_code ignored;  // a file that cannot be looked at is rejected when it is read
+        if (is_wanted(it->path().native(), extension) && !it->is_directory(ignored))
+            items.push_back({it->path().native(), given});
     }
     if (error) throw Error("{}: the folder cannot be read: {}", folder.string(), error.message());
-    std::sort(found.begin(), found.end(), [](const Item& a, const Item& b) { return a.path < b.path; });
-    return found;
+    std::sort(items.begin() + before, items.end(),
+              [](const Item& a, const Item& b) { return a.path < b.path; });
+}
+
+/// Sizes and times of change; 0 for a file that vanished, which is rejected when it is read.
+void look_at(std::vector<Item>& items) {
+    parallel_for(items.size(), thread_count(0), [&](std::size_t i, unsigned) {
+        struct stat status {};
+        if (::stat(items[i].path.c_str(), &status) != 0) return;
+        if (S_ISREG(status.st_mode)) items[i].bytes = static_cast<std::uint64_t>(status.st_size);
+        items[i].changed = std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
+    });
 }
 
 }  // namespace
@@ -145,6 +161,7 @@ std::string_view RawFile::text(std::vector<char>& scratch) const {
 
 struct Source::State {
     std::string extension;
+    std::vector<fs::path> given;
     std::vector<Item> items;
     std::size_t at = 0;
     std::uint64_t passed = 0;
@@ -154,8 +171,7 @@ struct Source::State {
         for (; at < items.size(); ++at) {
             const auto& item = items[at];
             if (!item.archive) {
-                file = RawFile{
-                    item.path.string(), stem_of(item.path.string(), extension), item.bytes, false, {}, {}};
+                file = RawFile{item.path, stem_of(item.path, extension), item.bytes, false, {}, {}};
                 passed += item.bytes;
                 ++at;
                 return true;
@@ -174,20 +190,21 @@ struct Source::State {
 
 Source::Source(const std::vector<fs::path>& raw, std::string_view extension) : state_(new State) {
     state_->extension = extension;
-    for (const auto& path : raw) {
+    state_->given = raw;
+    for (std::size_t i = 0; i < raw.size(); ++i) {
         std::error_code error;
-        const auto status = fs::status(path, error);
-        if (!fs::exists(status)) throw Error("{}: no such file or folder", path.string());
+        const auto status = fs::status(raw[i], error);
+        if (!fs::exists(status)) throw Error("{}: no such file or folder", raw[i].string());
         if (fs::is_directory(status)) {
-            auto below = files_below(path, extension);
-            state_->items.insert(state_->items.end(), below.begin(), below.end());
+            add_files_below(raw[i], i, extension, state_->items);
         } else {
-            const bool archive = !has_extension(path.string(), extension);
+            const bool archive = !has_extension(raw[i].string(), extension);
             if (archive)
-                const Archive opens(path);  // so that a wrong argument is said before any work is done
-            state_->items.push_back({path, fs::file_size(path, error), archive});
+                const Archive opens(raw[i]);  // so that a wrong argument is said before any work is done
+            state_->items.push_back({raw[i].string(), i, archive});
         }
     }
+    look_at(state_->items);
     if (state_->items.empty()) {
         std::string where;
         for (const auto& path : raw) where += (where.empty() ? "" : ", ") + path.string();
@@ -215,13 +232,14 @@ std::uint64_t Source::bytes_read() const {
 }
 
 std::string Source::listing() const {
-    Checksum sum;
-    for (const auto& item : state_->items) {
-        std::error_code error;
-        const auto changed = fs::last_write_time(item.path, error).time_since_epoch().count();
-        sum.add(fmt::format("{}\n{} {}\n", fs::absolute(item.path).string(), item.bytes, changed));
-    }
-    return sum.hex();
+    std::vector<std::string> from_root;
+    for (const auto& path : state_->given) from_root.push_back(fs::absolute(path).string());
+    std::string lines;
+    for (const auto& item : state_->items)
+        fmt::format_to(std::back_inserter(lines), "{}{}\n{} {}\n", from_root[item.given],
+                       std::string_view(item.path).substr(state_->given[item.given].native().size()),
+                       item.bytes, item.changed);
+    return checksum(lines);
 }
 
 }  // namespace actformer::ingest

@@ -15,11 +15,14 @@ class Buffer {
   public:
     Buffer() = default;
 
-    Buffer(Device& device, std::size_t count) : device_(&device), count_(count) {
+    /// `spare` values behind the others may be read by kernels, which make no use of them.
+    Buffer(Device& device, std::size_t count, std::size_t spare = 0) : device_(&device), count_(count) {
         try {
-            // OpenCL has no empty buffers; one spare value stands for none.
-            memory_ =
-                cl::Buffer(device.context(), CL_MEM_READ_WRITE, std::max<std::size_t>(count, 1) * sizeof(T));
+            // OpenCL has no empty buffers; one spare value stands for none. Memory that the host reaches is taken at once,
+            // so that too little of it is an error here; PoCL takes other memory at its first use, and ends the process.
+            const cl_mem_flags where = device.info().shares_memory ? CL_MEM_ALLOC_HOST_PTR : 0;
+            memory_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE | where,
+                                 std::max<std::size_t>(count + spare, 1) * sizeof(T));
         } catch (const cl::Error& e) {
             raise(device.info(), fmt::format("allocating {} bytes", count * sizeof(T)), e);
         }

@@ -1,5 +1,6 @@
 #include "kernels/cleaning.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -25,42 +26,49 @@ struct FrameTable {
     Buffer<std::uint32_t> owner;  ///< (frames) clip of each
 };
 
-LimbRows fill_gaps(Device& device, const ClipBatch& batch, const FrameTable& table,
-                   const Buffer<float>& limbs) {
-    const std::uint32_t numbers = batch.joints * 3, chunks = (numbers + 15) / 16;
-    const std::uint32_t rows = table.total * batch.persons;
+// As in smooth.cl: output frames that one work-item makes.
+constexpr std::uint32_t frames_a_block = 8;
+
+/// A Gaussian that sums to one over its 2 * radius + 1 frames, between zeros for the frames out of a sum's reach.
+std::vector<float> gaussian(const Smoothing& how) {
+    const int radius = how.sigma > 0 ? static_cast<int>(how.radius) : 0;
+    std::vector<double> taps;
+    for (int r = -radius; r <= radius; ++r)
+        taps.push_back(r == 0 ? 1 : std::exp(-0.5 * r * r / (double{how.sigma} * how.sigma)));
+    const double sum = std::accumulate(taps.begin(), taps.end(), 0.0);
+    std::vector<float> out(taps.size() + 2 * (frames_a_block - 1));
+    std::transform(taps.begin(), taps.end(), out.begin() + frames_a_block - 1,
+                   [sum](double tap) { return static_cast<float>(tap / sum); });
+    return out;
+}
+
+/// (blocks) clip and first frame of every run of frames_a_block frames.
+std::vector<cl_uint2> blocks_of(const ClipBatch& batch) {
+    std::vector<cl_uint2> blocks;
+    for (std::uint32_t clip = 0; clip < batch.clips(); ++clip)
+        for (std::uint32_t frame = 0; frame < batch.frames[clip]; frame += frames_a_block)
+            blocks.push_back({{clip, frame}});
+    return blocks;
+}
+
+LimbRows fill_and_smooth(Device& device, const ClipBatch& batch, const FrameTable& table,
+                         const Buffer<float>& limbs, const Smoothing& how) {
+    const std::uint32_t numbers = batch.joints * 3, chunks = std::max(numbers + 15, 48U) / 16;
+    const std::size_t rows = std::size_t{table.total} * batch.persons;
     const Buffer<float> times(device, batch.times), step(device, batch.step);
     const Buffer<std::uint32_t> first(device, batch.first);
     const Buffer<cl_uint2> pair(device, rows);
     const Buffer<float> weight(device, rows);
-    LimbRows out{Buffer<float>(device, std::size_t{rows} * chunks * 16), chunks * 16};
-
     launch(device, device.kernel("fill_gaps", "locate"), {batch.persons, table.total}, times, first,
            table.start, step, table.owner, pair, weight, batch.persons, table.total);
-    launch(device, device.kernel("fill_gaps", "blend"), {chunks, rows}, limbs, pair, weight, out.values,
-           numbers, rows);
-    return out;
-}
 
-/// Centre and right half of a Gaussian that sums to one over 2 * radius + 1 frames.
-std::vector<float> gaussian(const Smoothing& how) {
-    std::vector<double> taps(how.radius + 1);
-    for (std::size_t r = 0; r < taps.size(); ++r)
-        taps[r] = std::exp(-0.5 * static_cast<double>(r * r) / (double{how.sigma} * how.sigma));
-    const double sum = 2 * std::accumulate(taps.begin(), taps.end(), 0.0) - taps[0];
-    std::vector<float> out(taps.size());
-    for (std::size_t r = 0; r < taps.size(); ++r) out[r] = static_cast<float>(taps[r] / sum);
-    return out;
-}
-
-LimbRows smooth(Device& device, const ClipBatch& batch, const FrameTable& table, const LimbRows& limbs,
-                const Smoothing& how) {
-    if (how.sigma <= 0) return limbs;
-    const std::uint32_t chunks = batch.persons * limbs.pitch / 16;
     const Buffer<float> taps(device, gaussian(how));
-    LimbRows out{Buffer<float>(device, limbs.values.size()), limbs.pitch};
-    launch(device, device.kernel("smooth", "smooth"), {chunks, table.total}, taps, table.start, table.owner,
-           limbs.values, out.values, how.radius, chunks, table.total);
+    const Buffer<cl_uint2> blocks(device, blocks_of(batch));
+    LimbRows out{Buffer<float>(device, rows * chunks * 16), chunks * 16};
+    const auto count = static_cast<std::uint32_t>(blocks.size());
+    launch(device, device.kernel("smooth", "smooth"), {std::size_t{batch.persons} * chunks, count}, taps,
+           blocks, table.start, pair, weight, limbs, out.values, how.sigma > 0 ? how.radius : 0U,
+           batch.persons, chunks, numbers, count);
     return out;
 }
 
@@ -72,10 +80,10 @@ CleanedBatch normalise(Device& device, const ClipBatch& batch, const FrameTable&
     const Buffer<cl_float4> roots(device, sequences);
     const Buffer<float> motion(device, std::size_t{rows} * batch.joints * 3);
 
-    launch(device, device.kernel("normalise", "means"), {batch.joints, sequences}, limbs.values, table.start,
-           bones, roots, batch.persons, batch.joints, limbs.pitch, sequences);
-    launch(device, device.kernel("normalise", "unit_limbs"), {batch.joints, rows}, limbs.values, table.owner,
-           roots, motion, batch.persons, batch.joints, limbs.pitch, rows);
+    launch(device, device.kernel("normalise", "means"), {sequences, 1}, limbs.values, table.start, bones,
+           roots, batch.persons, batch.joints, limbs.pitch, sequences);
+    launch(device, device.kernel("normalise", "unit_limbs"), {rows, 1}, limbs.values, table.owner, roots,
+           motion, batch.persons, batch.joints, limbs.pitch, rows);
     return {motion.download(), bones.download()};
 }
 
@@ -85,12 +93,14 @@ std::size_t ClipBatch::total_frames() const {
     return std::accumulate(frames.begin(), frames.end(), std::size_t{0});
 }
 
-LimbRows fill_gaps(Device& device, const ClipBatch& batch, const Buffer<float>& limbs) {
-    return fill_gaps(device, batch, FrameTable(device, batch), limbs);
+Buffer<float> limb_buffer(Device& device, std::size_t detections, std::uint32_t joints) {
+    constexpr std::size_t spare = 48;  // a row is read in vectors of 16 numbers, three at least
+    return {device, detections * joints * 3, spare};
 }
 
-LimbRows smooth(Device& device, const ClipBatch& batch, const LimbRows& limbs, const Smoothing& how) {
-    return smooth(device, batch, FrameTable(device, batch), limbs, how);
+LimbRows fill_and_smooth(Device& device, const ClipBatch& batch, const Buffer<float>& limbs,
+                         const Smoothing& how) {
+    return fill_and_smooth(device, batch, FrameTable(device, batch), limbs, how);
 }
 
 CleanedBatch normalise(Device& device, const ClipBatch& batch, const LimbRows& limbs) {
@@ -99,8 +109,7 @@ CleanedBatch normalise(Device& device, const ClipBatch& batch, const LimbRows& l
 
 CleanedBatch clean(Device& device, const ClipBatch& batch, const Buffer<float>& limbs, const Smoothing& how) {
     const FrameTable table(device, batch);
-    return normalise(device, batch, table,
-                     smooth(device, batch, table, fill_gaps(device, batch, table, limbs), how));
+    return normalise(device, batch, table, fill_and_smooth(device, batch, table, limbs, how));
 }
 
 }  // namespace actformer::kernels

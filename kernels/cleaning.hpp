@@ -37,24 +37,25 @@ struct CleanedBatch {
     std::vector<float> bone_length;  ///< (clips, P, K) metres, the mean over frames; 0 for the root
 };
 
-/// Limbs of every frame on the device: values (total frames, P, pitch), the K*3 numbers of a body padded to a pitch that
-/// vector units like.
+/// Limbs of every frame on the device: values (total frames, P, pitch), the K*3 numbers of a body first; what follows them
+/// in a row means nothing.
 struct LimbRows {
     Buffer<float> values;
     std::uint32_t pitch = 0;
 };
 
-/// Detections interpolated linearly at every output frame, held before the first and after the last. `limbs` is
-/// (detections, K, 3).
-LimbRows fill_gaps(Device& device, const ClipBatch& batch, const Buffer<float>& limbs);
+/// Room on the device for (detections, K, 3), and what the kernels read behind it.
+Buffer<float> limb_buffer(Device& device, std::size_t detections, std::uint32_t joints);
 
-/// Each coordinate smoothed over its clip's frames; edges mirrored with the edge sample repeated.
-LimbRows smooth(Device& device, const ClipBatch& batch, const LimbRows& limbs, const Smoothing& how);
+/// Detections, in a limb_buffer, interpolated linearly at every output frame, held before the first and after the last; then
+/// each coordinate smoothed over its clip's frames, edges mirrored with the edge sample repeated.
+LimbRows fill_and_smooth(Device& device, const ClipBatch& batch, const Buffer<float>& limbs,
+                         const Smoothing& how);
 
 /// Each limb divided by (its length + 1e-4); the mean root over a clip's frames and persons taken from its roots.
 CleanedBatch normalise(Device& device, const ClipBatch& batch, const LimbRows& limbs);
 
-/// The three in turn. `limbs` is (detections, K, 3).
+/// All of it. `limbs` is a limb_buffer.
 CleanedBatch clean(Device& device, const ClipBatch& batch, const Buffer<float>& limbs, const Smoothing& how);
 
 }  // namespace actformer::kernels

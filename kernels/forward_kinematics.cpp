@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kernels/cleaning.hpp"
+
 namespace actformer::kernels {
 namespace {
 
@@ -133,7 +135,7 @@ Buffer<float> forward_kinematics(Device& device, std::span<const KinematicClip> 
         frame_first(device, layout.frame_first);
     const Buffer<std::uint64_t> value_first(device, layout.value_first);
     const Buffer<float> transforms(device, std::size_t{layout.slots} * 12 * total);
-    Buffer<float> limbs(device, total * layout.limbs * 3);
+    auto limbs = limb_buffer(device, total, layout.limbs);
     launch(device, device.kernel("forward_kinematics", "forward_kinematics"), {total, 1}, values, joints,
            joint_first, frame_first, value_first, static_cast<std::uint32_t>(clips.size()),
            static_cast<std::uint32_t>(total), layout.limbs, metres_per_unit, transforms, limbs);

@@ -36,7 +36,7 @@ struct KinematicClip {
 /// instead: this moves the whole clip by a constant, which re-centring (normalise) takes away. Rotations
 /// apply in the order of the channels: channels a b c mean the matrix A B C.
 ///
-/// Throws Error where the clips' kept joints differ in number, or a clip is not as described.
+/// The result is a limb_buffer, as cleaning takes it. Throws Error where the clips' kept joints differ in number, or a clip is not as described.
 Buffer<float> forward_kinematics(Device& device, std::span<const KinematicClip> clips, float metres_per_unit);
 
 }  // namespace actformer::kernels

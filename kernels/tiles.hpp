@@ -10,9 +10,9 @@ namespace actformer::kernels {
 
 struct Tiles {
     std::uint32_t vec = 16;         ///< numbers in a vector: 1, 2, 4, 8 or 16
-    std::uint32_t rows = 5;         ///< rows of the tile of sums that a work-item of the multiply holds
+    std::uint32_t rows = 6;         ///< rows of the tile of sums that a work-item of the multiply holds
     std::uint32_t vectors = 4;      ///< vectors across that tile
-    std::uint32_t item_tiles = 16;  ///< tiles a work-item does one after the other
+    std::uint32_t item_tiles = 32;  ///< tiles a work-item does one after the other
     std::uint32_t group = 1;        ///< work-items in a group of the multiply, at most
     bool columns_first = false;     ///< neighbouring work-items share rows, not weights
     std::uint32_t sequences = 8;    ///< sequences that go through the network together

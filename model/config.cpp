@@ -192,18 +192,28 @@ const Value& Config::value(const std::string& name) const {
 }
 
 void Config::load(const std::filesystem::path& file) {
-    YAML::Node root;
     try {
-        root = YAML::LoadFile(file.string());
+        take(YAML::LoadFile(file.string()), file.string());
     } catch (const YAML::BadFile&) {
         throw Error("{}: cannot be read; is the path right?", file.string());
     } catch (const YAML::Exception& e) {
         throw Error("{}:{}: no YAML: {}", file.string(), e.mark.line + 1, e.msg);
     }
-    if (!root.IsMap()) throw Error("{}: not a list of `key: value` lines", file.string());
+}
+
+void Config::load_text(const std::string& text, const std::string& where) {
+    try {
+        take(YAML::Load(text), where);
+    } catch (const YAML::Exception& e) {
+        throw Error("{}:{}: no YAML: {}", where, e.mark.line + 1, e.msg);
+    }
+}
+
+void Config::take(const YAML::Node& root, const std::string& file) {
+    if (!root.IsMap()) throw Error("{}: not a list of `key: value` lines", file);
     std::set<std::string> seen;
     for (const auto& entry : root) {
-        const auto where = fmt::format("{}:{}", file.string(), entry.first.Mark().line + 1);
+        const auto where = fmt::format("{}:{}", file, entry.first.Mark().line + 1);
         const auto name = scalar(entry.first);
         if (!seen.insert(name).second) throw Error("{}: {} is given twice", where, ingest::printable(name));
         if (name == "model") {
@@ -214,7 +224,7 @@ void Config::load(const std::filesystem::path& file) {
         const auto i = index_of(name, where);
         values_[i] = parsed(keys_[i], entry.second, where);
     }
-    if (!seen.contains("model")) throw Error("{}: the line `model: {}` is missing", file.string(), model_);
+    if (!seen.contains("model")) throw Error("{}: the line `model: {}` is missing", file, model_);
 }
 
 void Config::override_with(const std::string& assignment) {

@@ -8,6 +8,10 @@
 #include <variant>
 #include <vector>
 
+namespace YAML {
+class Node;
+}
+
 namespace actformer::model {
 
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<std::int64_t>>;
@@ -30,6 +34,9 @@ class Config {
     /// a key given twice, a value of another type or out of range, a file for another model.
     void load(const std::filesystem::path& file);
 
+    /// The same of a text that `where` names.
+    void load_text(const std::string& text, const std::string& where);
+
     /// Takes one "key=value" of the command line. Throws Error as load does.
     void override_with(const std::string& assignment);
 
@@ -48,6 +55,7 @@ class Config {
 
   private:
     const Value& value(const std::string& name) const;
+    void take(const YAML::Node& root, const std::string& where);
     std::size_t index_of(const std::string& name, const std::string& where) const;
 
     std::string model_;

@@ -118,7 +118,7 @@ kernels::CleanedBatch NtuFormat::clean(kernels::Device& device, std::size_t data
         }
     }
     frames = batch.frames;
-    kernels::Buffer<float> limbs(device, batch.times.size() * ntu_joints * 3);
+    auto limbs = kernels::limb_buffer(device, batch.times.size(), ntu_joints);
     limbs.write_with([&](std::span<float> to) {
         auto at = to.begin();
         for (const auto& raw : clips)

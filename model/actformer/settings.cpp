@@ -98,10 +98,6 @@ std::vector<Key> network_keys() {
          persons_names}};
 }
 
-Config generator_config() {
-    return Config("generator", network_keys());
-}
-
 GeneratorSettings generator_settings(const Config& config, const ingest::Topology& topology,
                                      std::uint32_t persons, std::size_t classes, std::uint32_t numbers,
                                      const std::string& dataset) {

@@ -89,9 +89,6 @@ void check(const DiscriminatorSettings& settings);
 /// The configuration's keys that decide on the networks, with the paper's values.
 std::vector<Key> network_keys();
 
-/// Every key of a generator's configuration at its preset: a file says `model: generator`.
-Config generator_config();
-
 /// The networks of a configuration that holds network_keys(), for a dataset named `dataset` in complaints. Throw Error where
 /// the configuration asks for other persons or classes, or for what cannot be built (heads that do not divide the width).
 GeneratorSettings generator_settings(const Config& config, const ingest::Topology& topology,

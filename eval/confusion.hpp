@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace actformer::model {
+namespace actformer::eval {
 
 class Confusion {
   public:
@@ -23,7 +23,8 @@ class Confusion {
     /// Share of the samples recognised, 0..1; 0 without samples.
     double sample_accuracy() const;
 
-    /// One row a true class: its name, its samples, and its shares in per cent.
+    /// One row a class that has samples or was guessed: its name, its samples, and its shares in per cent. More classes
+    /// than a terminal shows side by side get a list: what each is recognised as, and its commonest mistakes.
     std::string table(const std::vector<std::string>& names) const;
 
     /// (classes, classes) counts, rows the truth.
@@ -31,9 +32,15 @@ class Confusion {
 
   private:
     std::uint64_t row_sum(std::size_t truth) const;
+    double per_cent(std::size_t truth, std::size_t guess) const;
+    std::vector<std::size_t> seen() const;
+    std::string square(const std::vector<std::string>& names, const std::vector<std::size_t>& shown,
+                       std::size_t width) const;
+    std::string list(const std::vector<std::string>& names, const std::vector<std::size_t>& shown,
+                     std::size_t width) const;
 
     std::size_t classes_;
     std::vector<std::uint64_t> counts_;
 };
 
-}  // namespace actformer::model
+}  // namespace actformer::eval
