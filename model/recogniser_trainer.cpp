@@ -90,7 +90,7 @@ class Training {
     double best_accuracy_ = -1;
     at::Tensor loss_sum_,
         right_sum_;  ///< of the running epoch, on the device: reading them would wait for every step
-    Confusion confusion_;
+    eval::Confusion confusion_;
 };
 
 std::optional<kernels::ClipStore> load_test_split(kernels::Device& device, const ingest::Dataset& dataset,
@@ -229,7 +229,7 @@ EpochReport Training::train_epoch() {
 
 void Training::score(EpochReport& report) {
     if (!test_clips_) return;
-    confusion_ = Confusion(shape_.classes);
+    confusion_ = eval::Confusion(shape_.classes);
     for_each_window(*test_clips_, settings_.batch, settings_.frames, [&](const Windows& windows) {
         const auto guesses = net_.eval_forward(to_tensor(windows)).logits.argmax(1).to(at::kCPU);
         const auto* guess = guesses.data_ptr<std::int64_t>();

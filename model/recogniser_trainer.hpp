@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/confusion.hpp"
+#include "eval/confusion.hpp"
 #include "model/recogniser_settings.hpp"
 
 namespace actformer::model {
@@ -34,7 +34,7 @@ struct TrainingEvents {
 struct TrainingResult {
     std::uint64_t epochs = 0, best_epoch = 0;  ///< best_epoch 0: none was scored
     double best_class_accuracy = 0;
-    Confusion confusion{0};  ///< of the test split after the last epoch
+    eval::Confusion confusion{0};  ///< of the test split after the last epoch
     std::vector<std::string> classes;
     std::filesystem::path last_weights, best_weights;  ///< best_weights empty where none was scored
 };

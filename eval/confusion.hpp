@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace actformer::model {
+namespace actformer::eval {
 
 class Confusion {
   public:
@@ -43,4 +43,4 @@ class Confusion {
     std::vector<std::uint64_t> counts_;
 };
 
-}  // namespace actformer::model
+}  // namespace actformer::eval

@@ -1,11 +1,11 @@
-#include "model/confusion.hpp"
+#include "eval/confusion.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numeric>
 
-namespace actformer::model {
+namespace actformer::eval {
 
 std::uint64_t Confusion::row_sum(std::size_t truth) const {
     const auto row = counts_.begin() + static_cast<std::ptrdiff_t>(truth * classes_);
@@ -97,4 +97,4 @@ std::vector<std::vector<std::uint64_t>> Confusion::rows() const {
     return rows;
 }
 
-}  // namespace actformer::model
+}  // namespace actformer::eval
