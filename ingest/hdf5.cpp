@@ -129,8 +129,8 @@ std::vector<float> Reader::read_rows(const std::string& name, std::uint64_t firs
 std::vector<std::string> Reader::read_strings(const std::string& name) const {
     const auto set = open(name);
     const Handle stored(H5Dget_type(set.get()), H5Tclose);
-    if (H5Tget_class(stored.get()) != H5T_STRING || H5Tis_variable_str(stored.get()) != 0)
-        throw Error("{}: '{}' holds no fixed-length strings", path_.string(), name);
+    if (H5Tget_class(stored.get()) != H5T_STRING) throw Error("{}: '{}' holds no text", path_.string(), name);
+    if (H5Tis_variable_str(stored.get()) > 0) return read_variable_strings(set, stored, name);
     const auto count = elements(shape(name)), size = H5Tget_size(stored.get());
     std::vector<char> text(count * size);
     if (H5Dread(set.get(), stored.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
@@ -144,9 +144,24 @@ std::vector<std::string> Reader::read_strings(const std::string& name) const {
     return values;
 }
 
+std::vector<std::string> Reader::read_variable_strings(const Handle& set, const Handle& type,
+                                                       const std::string& name) const {
+    std::vector<char*> texts(elements(shape(name)), nullptr);
+    if (H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()) < 0)
+        throw Error("{}: '{}' cannot be read: damaged", path_.string(), name);
+    std::vector<std::string> values;
+    for (const char* text : texts) values.emplace_back(text ? text : "");
+    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, texts.data());
+    return values;
+}
+
+bool Reader::has_attribute(const std::string& name) const {
+    return H5Aexists(file_.get(), name.c_str()) > 0;
+}
+
 std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {
-    if (H5Aexists(file_.get(), name.c_str()) <= 0)
-        throw Error("{}: has no attribute '{}'", path_.string(), name);
+    if (!has_attribute(name)) throw Error("{}: has no attribute '{}'", path_.string(), name);
     const Handle attribute(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
     const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
     if (!type || H5Tget_class(type.get()) != H5T_INTEGER || !space)
