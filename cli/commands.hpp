@@ -15,6 +15,8 @@ void add_features(CLI::App& app);
 void add_score(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_train(CLI::App& app);
+void add_train_generator(CLI::App& train);
+void add_generate(CLI::App& app);
 void add_model(CLI::App& app);
 
 /// Ends a command's --help with lines that can be typed as they stand.

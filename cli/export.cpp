@@ -26,6 +26,7 @@ void run(const Options& options) {
 
     Progress progress("export", "clips");
     ingest::MotionsWriter writer(options.out);
+    writer.describe(ingest::subjects_of(dataset));
     for (std::size_t i = 0; i < clips.size(); ++i) {
         writer.add(dataset.public_name(clips[i]), dataset.motion(clips[i]));
         progress.update(static_cast<double>(i + 1) / static_cast<double>(clips.size()), i + 1);

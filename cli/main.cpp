@@ -1,4 +1,3 @@
-#include <malloc.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -16,7 +15,8 @@ struct Subprogram {
 };
 constexpr Subprogram subprograms[] = {
     {"render", "actformer-render", "Draw motions: a contact sheet (.png), a .gif or an .mp4"},
-    {"train", "actformer-train", "Train a recogniser"},
+    {"train", "actformer-train", "Train a recogniser or a generator"},
+    {"generate", "actformer-train", "Generate motions with a trained generator"},
     {"model", "actformer-train", "Print a configuration's layers, shapes and parameter counts"}};
 
 std::filesystem::path path_of(const Subprogram& sub) {
@@ -35,7 +35,8 @@ int become(const Subprogram& sub, char** argv) {
     wait_without_spinning();
     ::execv(path_of(sub).c_str(), argv);
     std::fprintf(stderr,
-                 "actformer: this build has no '%s': %s is not beside it (train and model need libtorch; see "
+                 "actformer: this build has no '%s': %s is not beside it (train, generate and model need "
+                 "libtorch; see "
                  "README)\n",
                  sub.command, sub.program);
     return 1;
@@ -47,13 +48,8 @@ int main(int argc, char** argv) {
     for (const auto& sub : subprograms)
         if (argc > 1 && std::string_view(argv[1]) == sub.command) return become(sub, argv);
 
-    // Work goes batch by batch in buffers of the same sizes. Giving them back to the system in between would cost as much
-    // in page faults as reading the data does.
-    mallopt(M_MMAP_MAX, 0);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
-    mallopt(M_ARENA_MAX, 1);
-
     using namespace actformer::cli;
+    keep_freed_memory();
     return run_program(argc, argv, [](CLI::App& app) {
         add_devices(app);
         add_synth(app);

@@ -9,6 +9,8 @@
 #include "cli/format.hpp"
 #include "ingest/dataset.hpp"
 #include "kernels/error.hpp"
+#include "model/actformer/gan_settings.hpp"
+#include "model/actformer/layers.hpp"
 #include "model/recogniser_settings.hpp"
 
 namespace actformer::cli {
@@ -20,58 +22,111 @@ struct Options {
     bool json = false;
 };
 
-/// Of the dataset where there is one, else of NTU's skeleton with the configuration's persons and classes.
-model::StgcnSettings network_of(const model::RecogniserSettings& settings, const std::string& config) {
-    if (!settings.data.empty()) {
-        const auto folders = ingest::datasets_at(settings.data);
+/// What a network is made for: a dataset, or NTU's skeleton with the configuration's persons and classes.
+struct Shape {
+    ingest::Topology topology;
+    std::uint32_t persons = 0;
+    std::size_t classes = 0;
+    std::string named;  ///< in complaints
+};
+
+Shape shape_of(const std::string& data, std::int64_t persons, std::int64_t classes,
+               const std::string& config) {
+    if (!data.empty()) {
+        const auto folders = ingest::datasets_at(data);
         if (folders.size() != 1)
-            throw Error("{}: holds {} datasets; name one, as in {}", settings.data, folders.size(),
+            throw Error("{}: holds {} datasets; name one, as in {}", data, folders.size(),
                         folders[0].string());
         const ingest::Dataset dataset(folders[0]);
         const auto& header = dataset.header();
-        return model::network_for(settings, header.topology, header.persons, header.classes.size(),
-                                  folders[0].string());
+        return {header.topology, header.persons, header.classes.size(), folders[0].string()};
     }
-    if (settings.persons == 0 || settings.classes == 0)
+    if (persons == 0 || classes == 0)
         throw Error(
             "{}: leaves persons or classes to the dataset; give --data DATASET, or persons=1 classes=94",
             config);
-    return model::network_for(settings, ingest::ntu25(), settings.persons, settings.classes, config);
+    return {ingest::ntu25(), static_cast<std::uint32_t>(persons), static_cast<std::size_t>(classes), config};
+}
+
+/// A network and its layers.
+struct Network {
+    std::string name;
+    std::vector<model::SummaryLine> lines;
+
+    std::int64_t parameters() const {
+        return std::accumulate(lines.begin(), lines.end(), std::int64_t{0},
+                               [](std::int64_t sum, const auto& line) { return sum + line.parameters; });
+    }
+};
+
+/// The configuration with its overrides, and what its networks are for.
+std::pair<model::Config, Shape> read(model::Config config, const Options& options) {
+    config.load(options.config);
+    for (const auto& assignment : options.overrides) config.override_with(assignment);
+    const auto data =
+        options.data.empty() && config.has("data") ? config.get<std::string>("data") : options.data;
+    const auto shape = shape_of(data, config.get<std::int64_t>("persons"),
+                                config.get<std::int64_t>("classes"), options.config);
+    return {std::move(config), shape};
+}
+
+std::vector<Network> networks_of(const Options& options) {
+    if (model::model_named_in(options.config) == "generator") {
+        const auto [config, shape] = read(model::generator_config(), options);
+        constexpr std::uint32_t numbers = 3;
+        const auto frames = static_cast<std::uint32_t>(config.get<std::int64_t>("frames"));
+        const auto generator = model::generator_settings(config, shape.topology, shape.persons, shape.classes,
+                                                         numbers, shape.named);
+        const auto discriminator = model::discriminator_settings(config, shape.topology, shape.persons,
+                                                                 shape.classes, numbers, shape.named);
+        return {{"generator", model::generator_summary(generator, frames)},
+                {"discriminator", model::discriminator_summary(discriminator, frames)}};
+    }
+    const auto [config, shape] = read(model::recogniser_config(), options);
+    const auto settings = model::recogniser_settings(config);
+    const auto network =
+        model::network_for(settings, shape.topology, shape.persons, shape.classes, shape.named);
+    return {{"recogniser", model::stgcn_summary(network, settings.frames)}};
 }
 
 std::string shape_text(const std::vector<std::int64_t>& shape) {
     return fmt::format("({})", fmt::join(shape, ", "));
 }
 
-void print_text(const std::vector<model::SummaryLine>& lines, std::int64_t total) {
-    fmt::print("{:<24} {:<34} {:<16} {:>12}\n", "layer", "what", "output", "parameters");
-    for (const auto& line : lines)
-        fmt::print("{:<24} {:<34} {:<16} {:>12}\n", line.layer, line.kind, shape_text(line.shape),
-                   grouped(static_cast<std::uint64_t>(line.parameters)));
-    fmt::print("{:<24} {:<34} {:<16} {:>12}\n", "total", "", "", grouped(static_cast<std::uint64_t>(total)));
+void print_text(const std::vector<Network>& networks) {
+    for (const auto& network : networks) {
+        fmt::print("{:<24} {:<40} {:<16} {:>12}\n", network.name, "what", "output", "parameters");
+        for (const auto& line : network.lines)
+            fmt::print("{:<24} {:<40} {:<16} {:>12}\n", line.layer, line.kind, shape_text(line.shape),
+                       grouped(static_cast<std::uint64_t>(line.parameters)));
+        fmt::print("{:<24} {:<40} {:<16} {:>12}\n\n", "total", "", "",
+                   grouped(static_cast<std::uint64_t>(network.parameters())));
+    }
 }
 
-void print_json(const std::vector<model::SummaryLine>& lines, std::int64_t total) {
-    auto layers = nlohmann::ordered_json::array();
-    for (const auto& line : lines)
-        layers.push_back({{"layer", line.layer},
-                          {"what", line.kind},
-                          {"output", line.shape},
-                          {"parameters", line.parameters}});
-    fmt::print("{}\n", nlohmann::ordered_json{{"layers", layers}, {"parameters", total}}.dump(2));
+void print_json(const std::vector<Network>& networks) {
+    nlohmann::ordered_json out;
+    std::int64_t all = 0;
+    for (const auto& network : networks) {
+        auto layers = nlohmann::ordered_json::array();
+        for (const auto& line : network.lines)
+            layers.push_back({{"layer", line.layer},
+                              {"what", line.kind},
+                              {"output", line.shape},
+                              {"parameters", line.parameters}});
+        if (networks.size() == 1)
+            out["layers"] = layers;
+        else
+            out[network.name] = {{"layers", layers}, {"parameters", network.parameters()}};
+        all += network.parameters();
+    }
+    out["parameters"] = all;
+    fmt::print("{}\n", out.dump(2));
 }
 
 void run(const Options& options) {
-    auto config = model::recogniser_config();
-    config.load(options.config);
-    for (const auto& assignment : options.overrides) config.override_with(assignment);
-    if (!options.data.empty()) config.override_with("data=" + options.data);
-    const auto settings = model::recogniser_settings(config);
-    const auto lines = model::stgcn_summary(network_of(settings, options.config), settings.frames);
-    const auto total =
-        std::accumulate(lines.begin(), lines.end(), std::int64_t{0},
-                        [](std::int64_t sum, const auto& line) { return sum + line.parameters; });
-    options.json ? print_json(lines, total) : print_text(lines, total);
+    const auto networks = networks_of(options);
+    options.json ? print_json(networks) : print_text(networks);
 }
 
 }  // namespace
@@ -89,6 +144,7 @@ void add_model(CLI::App& app) {
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer model model/configs/recogniser-ntu-1p.yaml\n"
+             "  actformer model model/configs/actformer-ntu-2p.yaml frames=64\n"
              "  actformer model model/configs/recogniser-small.yaml --data bnr10 width=0.5\n");
     command->callback([options] { run(*options); });
 }

@@ -1,6 +1,7 @@
 #include "cli/program.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -15,6 +16,12 @@ bool knows(const CLI::App& app, const std::string& command) {
 }
 
 }  // namespace
+
+void keep_freed_memory() {
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_ARENA_MAX, 1);
+}
 
 int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) try {
     CLI::App app{"From raw motion capture to a published table."};

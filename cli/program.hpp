@@ -7,6 +7,10 @@
 
 namespace actformer::cli {
 
+/// Work goes batch by batch in buffers of the same sizes. Giving them back to the system in between would cost as much in
+/// page faults as a good part of the work does.
+void keep_freed_memory();
+
 /// Parses and runs `actformer` with the commands that `add_commands` gives it. Exit code 0, or 1 with one line on
 /// standard error.
 int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands);

@@ -35,18 +35,19 @@ void Progress::update(double fraction, std::uint64_t count) {
     if (start_fraction_ < 0) {  // resumed work counts for the bar, not for the rate
         start_fraction_ = fraction;
         start_count_ = count;
+        start_ = now;
     }
     const auto interval = terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000);
     if (now - last_ < interval) return;
     last_ = now;
 
     const double spent = std::chrono::duration<double>(now - start_).count();
-    const double rate = static_cast<double>(count - start_count_) / spent;
+    const double rate = spent > 0 ? static_cast<double>(count - start_count_) / spent : 0;
     const double gained = fraction - start_fraction_;
     const auto left =
         gained > 0 ? duration(spent * (1 - fraction) / gained) + " left" : std::string("starting");
-    const auto text = fmt::format("{:3.0f} %  {} {}  {:.0f}/s  {}", 100 * std::min(fraction, 1.0), count,
-                                  unit_, rate, left);
+    const auto text = fmt::format("{:3.0f} %  {} {}  {:.{}f}/s  {}", 100 * std::min(fraction, 1.0), count,
+                                  unit_, rate, rate < 10 ? 2 : 0, left);
     if (terminal_) {
         constexpr int width = 28;
         const int full = static_cast<int>(width * std::clamp(fraction, 0.0, 1.0));

@@ -35,6 +35,8 @@ void render(const Options& options) {
     layout.columns = options.columns;
     layout.fps = options.fps;
 
+    layout.across = static_cast<int>(options.wanted.per_class);  // a class a row
+
     std::vector<Figure> figures;
     for (const auto& path : options.inputs)
         for (auto& figure : reports::gather(path, options.wanted)) figures.push_back(std::move(figure));
@@ -78,8 +80,13 @@ void add_render(CLI::App& app) {
     command->add_option("--count", options->wanted.count, "Motions of each INPUT, spread over its classes")
         ->check(CLI::Range(1, 400))
         ->capture_default_str();
-    command->add_option("--bones", options->wanted.bones,
-                        "Dataset whose skeleton and mean limb lengths a motions file is drawn with");
+    command
+        ->add_option("--per-class", options->wanted.per_class,
+                     "Motions of every class instead, a class a row of a .gif or .mp4")
+        ->check(CLI::Range(1, 100));
+    command->add_option(
+        "--bones", options->wanted.bones,
+        "Dataset whose skeleton and mean limb lengths a motions file is drawn with, before its own");
     command
         ->add_option("--view", options->view,
                      "front, side, back, top, orbit, three-quarter, or AZIMUTH,ELEVATION in degrees")
@@ -100,7 +107,7 @@ void add_render(CLI::App& app) {
              "  actformer render raw/S001C001P001R001A001.skeleton -o raw.png\n"
              "  actformer render data/ntu-2p --class handshaking --count 4 -o handshakes.gif\n"
              "  actformer render data/ntu-1p --clip S001C001P001R001A001 --view orbit -o drink.mp4\n"
-             "  actformer render generated.h5 --bones data/ntu-1p --count 9 -o generated.mp4\n");
+             "  actformer render generated.h5 --per-class 4 -o generated.mp4\n");
     command->callback([options] { render(*options); });
 }
 

@@ -3,19 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "cli/training_options.hpp"
 #include "kernels/error.hpp"
 #include "model/recogniser_trainer.hpp"
 
 namespace actformer::cli {
 namespace {
-
-struct Options {
-    std::string config, data, run;
-    std::vector<std::string> overrides;
-    bool json = false;
-};
 
 void print_epoch(const model::EpochReport& report, std::uint64_t epochs) {
     fmt::print(stderr, "epoch {:>3} of {}  rate {:<7g} loss {:.4f}  trained {:5.1f} %", report.epoch, epochs,
@@ -53,11 +47,8 @@ void print_text(const model::TrainingResult& result, const std::string& split) {
                    100 * result.best_class_accuracy);
 }
 
-void run(const Options& options) {
-    auto config = model::recogniser_config();
-    config.load(options.config);
-    for (const auto& assignment : options.overrides) config.override_with(assignment);
-    if (!options.data.empty()) config.override_with("data=" + options.data);
+void run(const TrainingOptions& options) {
+    const auto config = options.read(model::recogniser_config());
     const auto epochs = config.get<std::int64_t>("epochs");
 
     Progress progress("train", "windows");
@@ -84,23 +75,16 @@ void run(const Options& options) {
 void add_train(CLI::App& app) {
     auto* train = app.add_subcommand("train", "Train a model; started again, it goes on where it was");
     train->require_subcommand(1);
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<TrainingOptions>();
     auto* command = train->add_subcommand("recogniser", "Train the ST-GCN action recogniser");
-    command->add_option("-c,--config", options->config, "Configuration, as in model/configs")
-        ->required()
-        ->type_name("CONFIG.yaml");
-    command->add_option("--data", options->data, "Dataset folder, before the configuration's data:")
-        ->type_name("DATASET");
-    command->add_option("-o,--out", options->run, "Folder of this training")->required()->type_name("RUN");
-    command->add_option("overrides", options->overrides, "As in batch=32, before the configuration's")
-        ->type_name("KEY=VALUE");
-    command->add_flag("--json", options->json, "Print the result as JSON");
+    add_training_options(command, *options);
     examples(command,
              "  actformer train recogniser -c model/configs/recogniser-ntu-1p.yaml --data ntu/ntu-1p -o "
              "recogniser\n"
              "  actformer train recogniser -c model/configs/recogniser-small.yaml --data bnr10 -o small "
              "train_split=xstyle/test test_split=xstyle/train epochs=10\n");
     command->callback([options] { run(*options); });
+    add_train_generator(*train);
 }
 
 }  // namespace actformer::cli

@@ -1,8 +1,10 @@
 #include "cli/program.hpp"
 
 int main(int argc, char** argv) {
+    actformer::cli::keep_freed_memory();
     return actformer::cli::run_program(argc, argv, [](CLI::App& app) {
         actformer::cli::add_train(app);
+        actformer::cli::add_generate(app);
         actformer::cli::add_model(app);
     });
 }

@@ -30,6 +30,30 @@ Handle string_type(std::size_t size) {
     return type;
 }
 
+/// `count` strings of `size` bytes, ended by zeros where they are shorter.
+std::vector<std::string> unpacked(const std::vector<char>& text, std::size_t count, std::size_t size) {
+    std::vector<std::string> values;
+    values.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const char* begin = text.data() + i * size;
+        values.emplace_back(begin, std::find(begin, begin + size, '\0'));
+    }
+    return values;
+}
+
+struct Packed {
+    std::size_t size = 1;
+    std::string text;
+};
+
+Packed packed(const std::vector<std::string>& values) {
+    Packed all;
+    for (const auto& value : values) all.size = std::max(all.size, value.size());
+    all.text.resize(values.size() * all.size, '\0');
+    for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(all.text.data() + i * all.size, all.size);
+    return all;
+}
+
 herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* names) {
     static_cast<std::vector<std::string>*>(names)->emplace_back(name);
     return 0;
@@ -135,13 +159,32 @@ std::vector<std::string> Reader::read_strings(const std::string& name) const {
     std::vector<char> text(count * size);
     if (H5Dread(set.get(), stored.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
         throw Error("{}: '{}' cannot be read: damaged", path_.string(), name);
-    std::vector<std::string> values;
-    values.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const char* begin = text.data() + i * size;
-        values.emplace_back(begin, std::find(begin, begin + size, '\0'));
+    return unpacked(text, count, size);
+}
+
+struct Reader::Attribute {
+    Handle handle, type;
+    std::size_t count = 0;
+
+    void read(hid_t as, void* to, const std::string& where) const {
+        if (count > 0 && H5Aread(handle.get(), as, to) < 0) throw Error("{} cannot be read: damaged", where);
     }
-    return values;
+};
+
+bool Reader::has_attribute(const std::string& name) const {
+    return H5Aexists(file_.get(), name.c_str()) > 0;
+}
+
+Reader::Attribute Reader::open_attribute(const std::string& name, H5T_class_t kind, const char* what) const {
+    if (!has_attribute(name)) throw Error("{}: has no attribute '{}'", path_.string(), name);
+    Attribute attribute{Handle(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose), {}, 0};
+    attribute.type = Handle(H5Aget_type(attribute.handle.get()), H5Tclose);
+    const Handle space(H5Aget_space(attribute.handle.get()), H5Sclose);
+    if (!attribute.type || H5Tget_class(attribute.type.get()) != kind || !space)
+        throw Error("{}: attribute '{}' holds no {}", path_.string(), name, what);
+    attribute.count =
+        static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0));
+    return attribute;
 }
 
 std::vector<std::string> Reader::read_variable_strings(const Handle& set, const Handle& type,
@@ -156,21 +199,29 @@ std::vector<std::string> Reader::read_variable_strings(const Handle& set, const 
     return values;
 }
 
-bool Reader::has_attribute(const std::string& name) const {
-    return H5Aexists(file_.get(), name.c_str()) > 0;
+std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {
+    const auto attribute = open_attribute(name, H5T_INTEGER, "whole numbers");
+    std::vector<std::int64_t> values(attribute.count);
+    attribute.read(H5T_NATIVE_INT64, values.data(), fmt::format("{}: attribute '{}'", path_.string(), name));
+    return values;
 }
 
-std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {
-    if (!has_attribute(name)) throw Error("{}: has no attribute '{}'", path_.string(), name);
-    const Handle attribute(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose);
-    const Handle type(H5Aget_type(attribute.get()), H5Tclose), space(H5Aget_space(attribute.get()), H5Sclose);
-    if (!type || H5Tget_class(type.get()) != H5T_INTEGER || !space)
-        throw Error("{}: attribute '{}' holds no whole numbers", path_.string(), name);
-    std::vector<std::int64_t> values(
-        static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0)));
-    if (!values.empty() && H5Aread(attribute.get(), H5T_NATIVE_INT64, values.data()) < 0)
-        throw Error("{}: attribute '{}' cannot be read: damaged", path_.string(), name);
+std::vector<float> Reader::attribute_floats(const std::string& name) const {
+    const auto attribute = open_attribute(name, H5T_FLOAT, "numbers");
+    std::vector<float> values(attribute.count);
+    attribute.read(H5T_NATIVE_FLOAT, values.data(), fmt::format("{}: attribute '{}'", path_.string(), name));
     return values;
+}
+
+std::vector<std::string> Reader::attribute_texts(const std::string& name) const {
+    const auto attribute = open_attribute(name, H5T_STRING, "text");
+    if (H5Tis_variable_str(attribute.type.get()) != 0)
+        throw Error("{}: attribute '{}' holds no fixed-length strings", path_.string(), name);
+    const auto size = H5Tget_size(attribute.type.get());
+    std::vector<char> text(attribute.count * size);
+    attribute.read(attribute.type.get(), text.data(),
+                   fmt::format("{}: attribute '{}'", path_.string(), name));
+    return unpacked(text, attribute.count, size);
 }
 
 Writer::Writer(std::size_t expected_bytes) {
@@ -268,11 +319,8 @@ void Writer::write_rows(const std::string& name, const Shape& shape, std::uint64
 }
 
 void Writer::write_strings(const std::string& name, const std::vector<std::string>& values) {
-    std::size_t size = 1;
-    for (const auto& value : values) size = std::max(size, value.size());
-    std::string packed(values.size() * size, '\0');
-    for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(packed.data() + i * size, size);
-    write_from(name, string_type(size).get(), {values.size()}, packed.data(), 0);
+    const auto all = packed(values);
+    write_from(name, string_type(all.size).get(), {values.size()}, all.text.data(), 0);
 }
 
 void Writer::attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value) {
@@ -295,6 +343,19 @@ void Writer::attribute(const std::string& name, const std::vector<std::int64_t>&
     const hsize_t count = values.size();
     attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
                    values.data());
+}
+
+void Writer::attribute(const std::string& name, const std::vector<float>& values) {
+    const hsize_t count = values.size();
+    attribute_from(name, H5T_NATIVE_FLOAT, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
+                   values.data());
+}
+
+void Writer::attribute(const std::string& name, const std::vector<std::string>& values) {
+    const auto all = packed(values);
+    const hsize_t count = values.size();
+    attribute_from(name, string_type(all.size).get(), Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
+                   all.text.data());
 }
 
 void Writer::image(const std::function<void(std::string_view)>& use) {

@@ -80,10 +80,14 @@ class Reader {
 
     bool has_attribute(const std::string& name) const;
 
-    /// Whole numbers in an attribute of the root group, one or many.
+    /// Whole numbers in an attribute of the root group, one or many; the same of other numbers and of texts.
     std::vector<std::int64_t> attribute_numbers(const std::string& name) const;
+    std::vector<float> attribute_floats(const std::string& name) const;
+    std::vector<std::string> attribute_texts(const std::string& name) const;
 
   private:
+    struct Attribute;
+    Attribute open_attribute(const std::string& name, H5T_class_t kind, const char* what) const;
     static std::size_t elements(const Shape& shape);
     Handle open(const std::string& name) const;
     void read_into(const std::string& name, hid_t type, void* to) const;
@@ -111,6 +115,8 @@ class Writer {
     void attribute(const std::string& name, const std::string& value);
     void attribute(const std::string& name, std::int64_t value);
     void attribute(const std::string& name, const std::vector<std::int64_t>& values);
+    void attribute(const std::string& name, const std::vector<float>& values);
+    void attribute(const std::string& name, const std::vector<std::string>& values);
 
     /// A chunked, checksummed array that lies in memory in pieces, each some whole rows of the first axis.
     void write_pieces(const std::string& name, const Shape& shape,

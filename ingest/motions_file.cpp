@@ -16,6 +16,7 @@ MotionsFile::MotionsFile(const std::filesystem::path& path)
         if (file_->reader.is_array(name)) names_.push_back(std::move(name));
     if (names_.empty())
         throw Error("{}: holds no motions; one (P*C, K, T) array a clip is expected", path.string());
+    subjects_ = read_subjects(file_->reader, path.string());
 }
 
 MotionsFile::~MotionsFile() = default;
@@ -62,6 +63,14 @@ void MotionsWriter::add(const std::string& name, const Motion& motion) {
             for (std::size_t k = 0; k < motion.joints; ++k)
                 for (std::size_t t = 0; t < motion.frames; ++t) *to++ = motion.at(t, p, k)[d];
     file_->writer.write<float>(name, {motion.persons * 3, motion.joints, motion.frames}, turned);
+}
+
+void MotionsWriter::describe(const Subjects& subjects) {
+    write_subjects(file_->writer, subjects);
+}
+
+void MotionsWriter::note(const std::string& attribute, const std::string& text) {
+    file_->writer.attribute(attribute, text);
 }
 
 void MotionsWriter::finish() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ingest/motion.hpp"
+#include "ingest/subjects.hpp"
 
 namespace actformer::ingest {
 
@@ -20,11 +21,15 @@ class MotionsFile {
     const std::vector<std::string>& names() const { return names_; }  ///< sorted
     Motion read(const std::string& name) const;
 
+    /// Whose motions they are, where the file tells.
+    const std::optional<Subjects>& subjects() const { return subjects_; }
+
   private:
     struct Handle;
     std::filesystem::path path_;
     std::unique_ptr<Handle> file_;
     std::vector<std::string> names_;
+    std::optional<Subjects> subjects_;
 };
 
 /// Writes motions one at a time; the file appears at `path` at finish(), and not at all without it.
@@ -33,6 +38,11 @@ class MotionsWriter {
     explicit MotionsWriter(const std::filesystem::path& path);
     ~MotionsWriter();
     void add(const std::string& name, const Motion& motion);
+
+    /// Attributes of the file: whose motions they are, and a line of where they come from.
+    void describe(const Subjects& subjects);
+    void note(const std::string& attribute, const std::string& text);
+
     void finish();
 
   private:

@@ -129,9 +129,9 @@ void Sampler::draw(std::uint64_t index, Batch& into) const {
     into.begin(into.samples_, *clips_);
     launch(device, sampler_kernel(device, "draw"), {into.window_, into.samples_}, clips_->motion(),
            clips_->clips(), by_class_, class_first_, class_edge_, drawn_, low(options_.seed),
-           high(options_.seed), low(index), high(index), static_cast<std::uint32_t>(options_.permute_persons),
-           into.samples_, into.window_, table.persons, table.joints, table.channels, into.values_.memory(),
-           into.labels_.memory(), into.picks_.memory());
+           high(options_.seed), low(index), high(index), options_.first_sample,
+           static_cast<std::uint32_t>(options_.permute_persons), into.samples_, into.window_, table.persons,
+           table.joints, table.channels, into.values_.memory(), into.labels_.memory(), into.picks_.memory());
     into.values_.begin_map();
     into.labels_.begin_map();
     into.picks_.begin_map();

@@ -87,6 +87,7 @@ struct SamplerOptions {
     std::uint64_t seed = 0;
     ClassSampling classes = ClassSampling::square_root;
     bool permute_persons = true;
+    std::uint32_t first_sample = 0;  ///< of a batch's part: how many samples of it others draw before these
 };
 
 /// Random batches: a class, a clip of it, a window (a crop of a longer clip; a shorter one runs back and forth), the order

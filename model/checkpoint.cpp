@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cstring>
+#include <map>
 #include <numeric>
 
 #include "ingest/checksum.hpp"
@@ -14,19 +16,24 @@ namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr std::string_view heading = "actformer checkpoint 1\n";
+constexpr std::string_view kind = "actformer checkpoint ", heading = "actformer checkpoint 2\n";
 static_assert(std::endian::native == std::endian::little, "checkpoints hold little-endian numbers");
 
 /// Finished checkpoints, the newest first.
 std::vector<fs::path> checkpoints_in(const fs::path& folder) {
-    std::vector<fs::path> files;
-    if (!fs::is_directory(folder)) return files;
+    constexpr std::string_view prefix = "checkpoint-";
+    std::map<std::uint64_t, fs::path> by_number;
+    if (!fs::is_directory(folder)) return {};
     for (const auto& entry : fs::directory_iterator(folder)) {
         const auto name = entry.path().filename().string();
-        if (name.starts_with("checkpoint-") && name.find('.') == std::string::npos)
-            files.push_back(entry.path());
+        if (!name.starts_with(prefix)) continue;
+        std::uint64_t number = 0;
+        const auto* end = name.data() + name.size();
+        if (std::from_chars(name.data() + prefix.size(), end, number).ptr == end)
+            by_number[number] = entry.path();
     }
-    std::sort(files.rbegin(), files.rend());
+    std::vector<fs::path> files;
+    for (auto& [number, path] : by_number) files.insert(files.begin(), std::move(path));
     return files;
 }
 
@@ -64,7 +71,7 @@ std::string to_bytes(const Checkpoint& checkpoint) {
     for (const auto& array : checkpoint.arrays)
         arrays.push_back({{"name", array.name}, {"shape", array.shape}});
     auto body =
-        Json{{"epoch", checkpoint.epoch}, {"state", checkpoint.state}, {"arrays", arrays}}.dump() + "\n";
+        Json{{"done", checkpoint.done}, {"state", checkpoint.state}, {"arrays", arrays}}.dump() + "\n";
     for (const auto& array : checkpoint.arrays)
         body.append(reinterpret_cast<const char*>(array.values.data()), array.values.size() * sizeof(float));
     return std::string(heading) + ingest::checksum(body) + "\n" + body;
@@ -78,7 +85,7 @@ std::optional<Checkpoint> checkpoint_from(std::string_view bytes) {
     const auto line = take_line(bytes);
     if (!line) return std::nullopt;
     const auto json = Json::parse(*line);  // whole, as the checksum says
-    Checkpoint checkpoint{json.at("epoch"), json.at("state"), {}};
+    Checkpoint checkpoint{json.at("done"), json.at("state"), {}};
     for (const auto& one : json.at("arrays")) {
         auto array = take_array(one, bytes);
         if (!array) return std::nullopt;
@@ -88,19 +95,29 @@ std::optional<Checkpoint> checkpoint_from(std::string_view bytes) {
 }
 
 void save_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
-    ingest::write_whole(folder / fmt::format("checkpoint-{:05}", checkpoint.epoch), to_bytes(checkpoint));
+    ingest::write_whole(folder / fmt::format("checkpoint-{:05}", checkpoint.done), to_bytes(checkpoint));
     const auto files = checkpoints_in(folder);
     for (std::size_t i = 2; i < files.size(); ++i) fs::remove(files[i]);
 }
 
-std::optional<Checkpoint> newest_checkpoint(const fs::path& folder,
+std::optional<Checkpoint> newest_checkpoint(const fs::path& folder, const std::string& model,
                                             const std::function<void(const std::string&)>& note) {
     const auto files = checkpoints_in(folder);
     for (std::size_t i = 0; i < files.size(); ++i) {
-        if (auto checkpoint = checkpoint_from(read_whole(files[i]))) return checkpoint;
+        const auto bytes = read_whole(files[i]);
+        if (bytes.starts_with(kind) && bytes.size() > heading.size() && !bytes.starts_with(heading))
+            throw Error(
+                "{}: written by another version of actformer; go on with that one, or choose another -o",
+                files[i].string());
+        if (auto checkpoint = checkpoint_from(bytes)) {
+            if (const auto whose = checkpoint->state.value("model", "unknown"); whose != model)
+                throw Error("{}: a checkpoint of a {}, not of a {}; choose another -o", files[i].string(),
+                            whose, model);
+            return checkpoint;
+        }
         note(fmt::format("{}: cut short or damaged; {}", files[i].string(),
                          i + 1 < files.size() ? "going back to the one before" : "starting anew"));
-        fs::remove(files[i]);
+        fs::rename(files[i], files[i].string() + ".damaged");
     }
     return std::nullopt;
 }

@@ -13,8 +13,8 @@
 namespace actformer::model {
 
 struct Checkpoint {
-    std::uint64_t epoch = 0;       ///< epochs finished
-    nlohmann::ordered_json state;  ///< of the trainer: counters, scores, fingerprints
+    std::uint64_t done = 0;        ///< a recogniser's epochs, a generator's steps
+    nlohmann::ordered_json state;  ///< of the trainer: `model`, counters, scores, fingerprints
     std::vector<Array> arrays;
 };
 
@@ -27,8 +27,9 @@ std::optional<Checkpoint> checkpoint_from(std::string_view bytes);
 /// Writes folder/checkpoint-NNNNN and removes all but it and the one before. Throws Error where it cannot be written.
 void save_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
-/// The newest whole checkpoint in `folder`; none where there is none. `note` hears of every damaged one that was passed over.
-std::optional<Checkpoint> newest_checkpoint(const std::filesystem::path& folder,
+/// The newest whole checkpoint in `folder`; none where there is none. `note` hears of every damaged one that was passed over,
+/// which stays as NAME.damaged. Throws Error where it is of another model than `model`, or another version's.
+std::optional<Checkpoint> newest_checkpoint(const std::filesystem::path& folder, const std::string& model,
                                             const std::function<void(const std::string&)>& note);
 
 }  // namespace actformer::model

@@ -157,6 +157,13 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
     return best;
 }
 
+std::string model_named_in(const std::filesystem::path& file) try {
+    const auto root = YAML::LoadFile(file.string());
+    return root.IsMap() && root["model"] ? scalar(root["model"]) : "";
+} catch (const YAML::Exception&) {
+    return {};
+}
+
 Config::Config(std::string model, std::vector<Key> keys) : model_(std::move(model)), keys_(std::move(keys)) {
     for (const auto& key : keys_) values_.push_back(key.preset);
 }
@@ -176,23 +183,37 @@ std::size_t Config::index_of(const std::string& name, const std::string& where) 
     throw Error("{}: there is no key '{}'; did you mean '{}'?", where, ingest::printable(name), nearest);
 }
 
+bool Config::has(const std::string& name) const {
+    return std::any_of(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name == name; });
+}
+
 const Value& Config::value(const std::string& name) const {
     return values_[index_of(name, "configuration")];
 }
 
 void Config::load(const std::filesystem::path& file) {
-    YAML::Node root;
     try {
-        root = YAML::LoadFile(file.string());
+        take(YAML::LoadFile(file.string()), file.string());
     } catch (const YAML::BadFile&) {
         throw Error("{}: cannot be read; is the path right?", file.string());
     } catch (const YAML::Exception& e) {
         throw Error("{}:{}: no YAML: {}", file.string(), e.mark.line + 1, e.msg);
     }
-    if (!root.IsMap()) throw Error("{}: not a list of `key: value` lines", file.string());
+}
+
+void Config::load_text(const std::string& text, const std::string& where) {
+    try {
+        take(YAML::Load(text), where);
+    } catch (const YAML::Exception& e) {
+        throw Error("{}:{}: no YAML: {}", where, e.mark.line + 1, e.msg);
+    }
+}
+
+void Config::take(const YAML::Node& root, const std::string& file) {
+    if (!root.IsMap()) throw Error("{}: not a list of `key: value` lines", file);
     std::set<std::string> seen;
     for (const auto& entry : root) {
-        const auto where = fmt::format("{}:{}", file.string(), entry.first.Mark().line + 1);
+        const auto where = fmt::format("{}:{}", file, entry.first.Mark().line + 1);
         const auto name = scalar(entry.first);
         if (!seen.insert(name).second) throw Error("{}: {} is given twice", where, ingest::printable(name));
         if (name == "model") {
@@ -203,7 +224,7 @@ void Config::load(const std::filesystem::path& file) {
         const auto i = index_of(name, where);
         values_[i] = parsed(keys_[i], entry.second, where);
     }
-    if (!seen.contains("model")) throw Error("{}: the line `model: {}` is missing", file.string(), model_);
+    if (!seen.contains("model")) throw Error("{}: the line `model: {}` is missing", file, model_);
 }
 
 void Config::override_with(const std::string& assignment) {

@@ -8,6 +8,10 @@
 #include <variant>
 #include <vector>
 
+namespace YAML {
+class Node;
+}
+
 namespace actformer::model {
 
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<std::int64_t>>;
@@ -30,8 +34,13 @@ class Config {
     /// a key given twice, a value of another type or out of range, a file for another model.
     void load(const std::filesystem::path& file);
 
+    /// The same of a text that `where` names.
+    void load_text(const std::string& text, const std::string& where);
+
     /// Takes one "key=value" of the command line. Throws Error as load does.
     void override_with(const std::string& assignment);
+
+    bool has(const std::string& name) const;
 
     template <typename T>
     const T& get(const std::string& name) const {
@@ -46,12 +55,16 @@ class Config {
 
   private:
     const Value& value(const std::string& name) const;
+    void take(const YAML::Node& root, const std::string& where);
     std::size_t index_of(const std::string& name, const std::string& where) const;
 
     std::string model_;
     std::vector<Key> keys_;
     std::vector<Value> values_;
 };
+
+/// What a configuration's line `model:` says; empty where there is none, or no such file.
+std::string model_named_in(const std::filesystem::path& file);
 
 /// The candidate that takes the fewest insertions, deletions, replacements and swaps to reach from `word`; empty where none
 /// comes near.

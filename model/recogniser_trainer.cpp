@@ -5,49 +5,20 @@
 #include <memory>
 #include <optional>
 
-#include "ingest/dataset.hpp"
-#include "ingest/file.hpp"
 #include "kernels/error.hpp"
 #include "model/blas.hpp"
 #include "model/checkpoint.hpp"
 #include "model/run_folder.hpp"
 #include "model/sgd.hpp"
 #include "model/stgcn_net.hpp"
+#include "model/training.hpp"
 #include "model/weights_file.hpp"
-#include "model/window_feed.hpp"
 
 namespace actformer::model {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
-
-/// A well-mixed number for the dropout of step `step`.
-std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step) {
-    std::uint64_t x = seed * 0x9E3779B97F4A7C15U + step + 1;
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
-    return x ^ (x >> 31);
-}
-
-at::Device torch_device(const std::string& name) {
-    try {
-        const at::Device device(name);
-        at::zeros({1}, at::TensorOptions().device(device));
-        return device;
-    } catch (const std::exception&) {
-        throw Error("device {}: this libtorch cannot train there; device=cpu always works", name);
-    }
-}
-
-ingest::Dataset open_dataset(const RecogniserSettings& settings) {
-    if (settings.data.empty()) throw Error("no dataset: give --data DATASET, or data: in the configuration");
-    const auto folders = ingest::datasets_at(settings.data);
-    if (folders.size() != 1)
-        throw Error("{}: holds {} datasets; train on one, as in {}", settings.data, folders.size(),
-                    folders[0].string());
-    return ingest::Dataset(folders[0]);
-}
 
 class Training {
   public:
@@ -58,7 +29,6 @@ class Training {
     void say(const std::string& line) const {
         if (events_.note) events_.note(line);
     }
-    void compare_with_earlier_run() const;
     void say_what_is_missing() const;
     void resume();
     EpochReport train_epoch();
@@ -67,7 +37,6 @@ class Training {
     void keep(const EpochReport& report);
     std::vector<Array> momenta();
     at::Tensor to_tensor(const Windows& windows) const;
-    at::Tensor labels_of(const Windows& windows) const;
     std::map<std::string, std::string> notes(std::uint64_t epoch) const;
     std::filesystem::path last_weights() const { return folder_.path() / "weights-last.h5"; }
     std::filesystem::path best_weights() const { return folder_.path() / "weights-best.h5"; }
@@ -110,7 +79,7 @@ Training::Training(const Config& config, const std::filesystem::path& run, const
     : config_(config),
       events_(events),
       settings_(recogniser_settings(config)),
-      dataset_(open_dataset(settings_)),
+      dataset_(dataset_to_train_on(settings_.data)),
       shape_(network_for(settings_, dataset_.header().topology, dataset_.header().persons,
                          dataset_.header().classes.size(), dataset_.folder().string())),
       opencl_(settings_.opencl),
@@ -124,20 +93,9 @@ Training::Training(const Config& config, const std::filesystem::path& run, const
       folder_(run),
       confusion_(shape_.classes) {
     steps_an_epoch_ = (train_clips_.table().clips() + settings_.batch - 1) / settings_.batch;
-    compare_with_earlier_run();
-    ingest::write_whole(folder_.config(), config_.yaml());
+    folder_.keep_to(config_, recogniser_config(), keys_free_to_change());
     say_what_is_missing();
     resume();
-}
-
-void Training::compare_with_earlier_run() const {
-    if (!std::filesystem::exists(folder_.config())) return;
-    auto earlier = recogniser_config();
-    earlier.load(folder_.config());
-    const auto differences = config_.differences(earlier, keys_free_to_change());
-    if (!differences.empty())
-        throw Error("{}: holds a training with other settings ({}); choose another -o",
-                    folder_.path().string(), fmt::join(differences, ", "));
 }
 
 /// A class that is never seen in training is never recognised: worth a line before hours of it.
@@ -157,20 +115,18 @@ void Training::say_what_is_missing() const {
 }
 
 void Training::resume() {
-    const auto found = newest_checkpoint(folder_.path(), [this](const std::string& line) { say(line); });
+    const auto found =
+        newest_checkpoint(folder_.path(), "recogniser", [this](const std::string& line) { say(line); });
     if (found) {
         if (found->state.at("dataset") != dataset_.fingerprint())
             throw Error("{}: holds a training on other data; choose another -o", folder_.path().string());
-        const auto where = fmt::format("{}: checkpoint of epoch {}", folder_.path().string(), found->epoch);
+        const auto where = fmt::format("{}: checkpoint of epoch {}", folder_.path().string(), found->done);
         net_.load(found->arrays, where);
-        const at::NoGradGuard no_gradients;
         auto& momenta = sgd_.momenta();
         const auto first = found->arrays.size() - momenta.size();  // they follow the weights
-        for (std::size_t i = 0; i < momenta.size(); ++i) {
-            auto values = found->arrays.at(first + i).values;
-            momenta[i].copy_(at::from_blob(values.data(), momenta[i].sizes(), at::kFloat));
-        }
-        epochs_ = found->epoch;
+        for (std::size_t i = 0; i < momenta.size(); ++i)
+            copy_into(momenta[i], found->arrays.at(first + i), where);
+        epochs_ = found->done;
         best_epoch_ = found->state.at("best_epoch");
         best_accuracy_ = found->state.at("best_accuracy");
         say(fmt::format("going on after epoch {} of {}", epochs_, settings_.epochs));
@@ -179,20 +135,11 @@ void Training::resume() {
 }
 
 at::Tensor Training::to_tensor(const Windows& windows) const {
-    const auto& table = train_clips_.table();
-    return at::from_blob(windows.values, {windows.count, shape_.channels, settings_.frames, table.joints},
-                         at::kFloat)
-        .to(device_);
-}
-
-at::Tensor Training::labels_of(const Windows& windows) const {
-    auto labels = at::empty({windows.count}, at::kLong);
-    std::copy_n(windows.labels, windows.count, labels.data_ptr<std::int64_t>());
-    return labels.to(device_);
+    return values_of(windows, shape_.channels, settings_.frames, train_clips_.table().joints, device_);
 }
 
 void Training::step(const Windows& windows, double rate, std::uint64_t index) {
-    const auto labels = labels_of(windows);
+    const auto labels = labels_of(windows, device_);
     const auto output = net_.train_forward(to_tensor(windows), step_seed(settings_.seed, index));
     const auto loss = at::cross_entropy_loss(output.logits, labels);
     loss.backward();
@@ -247,13 +194,8 @@ void Training::score(EpochReport& report) {
 
 std::vector<Array> Training::momenta() {
     std::vector<Array> arrays;
-    for (const auto& tensor : sgd_.momenta()) {
-        const auto values = tensor.to(at::kCPU).contiguous();
-        const auto* first = values.data_ptr<float>();
-        arrays.push_back({fmt::format("momentum.{}", arrays.size()),
-                          tensor.sizes().vec(),
-                          {first, first + values.numel()}});
-    }
+    for (const auto& tensor : sgd_.momenta())
+        arrays.push_back(array_of(fmt::format("momentum.{}", arrays.size()), tensor));
     return arrays;
 }
 
@@ -284,6 +226,7 @@ void Training::keep(const EpochReport& report) {
     save_weights(last_weights(), shape_, checkpoint.arrays, notes(epochs_));
     if (report.best) save_weights(best_weights(), shape_, checkpoint.arrays, notes(epochs_));
     checkpoint.state = {
+        {"model", "recogniser"},
         {"program", ACTFORMER_VERSION},
         {"dataset", dataset_.fingerprint()},
         {"seed", settings_.seed},  // with the steps done, all there is to the random numbers' state
@@ -317,10 +260,8 @@ TrainingResult train_recogniser(const Config& config, const std::filesystem::pat
     if (events.note) events.note(check_blas().line);
     try {
         return Training(config, run, events).run();
-    } catch (const c10::Error& e) {  // what() goes on with a stack
-        const std::string text = e.what_without_backtrace();
-        throw Error("libtorch: {}; a smaller batch helps where memory ran out",
-                    text.substr(0, text.find('\n')));
+    } catch (const c10::Error& e) {
+        throw Error("libtorch: {}; a smaller batch helps where memory ran out", one_line(e));
     }
 }
 

@@ -29,6 +29,17 @@ RunFolder::~RunFolder() {
     if (lock_ >= 0) ::close(lock_);
 }
 
+void RunFolder::keep_to(const Config& config, Config blank, const std::vector<std::string>& free) const {
+    if (std::filesystem::exists(this->config())) {
+        blank.load(this->config());
+        const auto differences = config.differences(blank, free);
+        if (!differences.empty())
+            throw Error("{}: holds a training with other settings ({}); choose another -o", folder_.string(),
+                        fmt::join(differences, ", "));
+    }
+    ingest::write_whole(this->config(), config.yaml());
+}
+
 void RunFolder::log(const nlohmann::ordered_json& line) const {
     const auto path = folder_ / "log.jsonl";
     std::ofstream file(path, std::ios::app | std::ios::binary);

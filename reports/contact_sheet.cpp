@@ -194,7 +194,9 @@ Film animation(const std::vector<Figure>& figures, const Layout& layout) {
     const auto stages = std::make_shared<const std::vector<Stage>>(stages_of(figures, layout));
     const Measures m(*stages, layout, 0.72, figures.size() == 1 ? 2.0 : 1.4);
     const auto count = static_cast<int>(figures.size());
-    const int columns = static_cast<int>(std::ceil(std::sqrt(count))), rows = (count + columns - 1) / columns;
+    const int columns =
+        layout.across > 0 ? std::min(layout.across, count) : static_cast<int>(std::ceil(std::sqrt(count)));
+    const int rows = (count + columns - 1) / columns;
     const int height = m.margin / 2 + m.title + m.title / 2 + m.cell_height + 2 * m.small,
               footer = m.small + m.margin;
 

@@ -14,6 +14,7 @@ struct Layout {
     View view;
     int size = 320;   ///< height of a figure's cell in pixels, 40 .. 4000
     int columns = 8;  ///< snapshots a figure on a contact sheet, 1 .. 100
+    int across = 0;   ///< figures in a row of an animation; 0: as many as make it near-square
     double fps = 0;   ///< of an animation; 0: as the first figure
     int samples = 3;  ///< a body's pixels are made from samples x samples each
 };
@@ -23,7 +24,7 @@ struct Layout {
 /// wide or high.
 cv::Mat contact_sheet(const std::vector<Figure>& figures, const Layout& layout);
 
-/// All figures at once, in cells of a near-square grid; it lasts as long as the longest, and a shorter one
+/// All figures at once, in the cells of a grid; it lasts as long as the longest, and a shorter one
 /// holds its last pose. Width and height are even. Keeps references to `figures`. Throws Error as
 /// contact_sheet() does.
 Film animation(const std::vector<Figure>& figures, const Layout& layout);

@@ -50,6 +50,17 @@ std::vector<std::size_t> spread(const std::vector<Candidate>& candidates, std::s
     return picks;
 }
 
+/// As many of each class as `wanted` says, or else `count` of all of them.
+std::vector<std::size_t> chosen(const std::vector<Candidate>& candidates, const Wanted& wanted,
+                                std::size_t count) {
+    if (wanted.per_class == 0) return spread(candidates, count);
+    std::map<std::int64_t, std::size_t> taken;
+    std::vector<Candidate> some;
+    for (const auto& c : candidates)
+        if (taken[c.label ? std::int64_t{*c.label} : -1]++ < wanted.per_class) some.push_back(c);
+    return spread(some, some.size());
+}
+
 /// The class that --class asks for: its name, or its number counted from 0.
 std::uint32_t class_called(const std::string& text, const std::vector<std::string>& classes,
                            const std::string& where) {
@@ -86,7 +97,7 @@ std::vector<std::size_t> picks_of(const ingest::Dataset& dataset, const Wanted& 
     for (const auto i : dataset.split(wanted.split)) candidates.push_back({i, dataset.clips()[i].label});
     if (candidates.empty())
         throw Error("{}: split '{}' is empty, so there is nothing to draw", where, wanted.split);
-    return spread(of_class(std::move(candidates), wanted, dataset.header().classes, where), count);
+    return chosen(of_class(std::move(candidates), wanted, dataset.header().classes, where), wanted, count);
 }
 
 Figure figure_of_clip(const ingest::Dataset& dataset, std::size_t clip) {
@@ -131,59 +142,53 @@ std::vector<Figure> figures_of_datasets(const fs::path& path, const Wanted& want
     return figures;
 }
 
-/// What a motions file does not say, and --bones may: the skeleton, its lengths, the classes.
-struct Body {
+/// What a motions file is drawn with, and the dataset that told it, if one did.
+struct Drawn {
     std::optional<ingest::Dataset> dataset;
-    ingest::Topology topology;
-    std::vector<float> lengths;  ///< (K) metres
+    ingest::Subjects subjects;
 
-    std::vector<std::string> classes() const {
-        return dataset ? dataset->header().classes : std::vector<std::string>{};
+    /// (persons, K) metres; persons beyond those known are as long as the first.
+    std::vector<float> lengths(std::uint32_t persons) const {
+        const auto k = static_cast<std::ptrdiff_t>(subjects.topology.joints());
+        std::vector<float> all;
+        for (std::uint32_t p = 0; p < persons; ++p) {
+            const auto from = subjects.bone_length.begin() + (p < subjects.persons ? p * k : 0);
+            all.insert(all.end(), from, from + k);
+        }
+        return all;
     }
 };
 
-/// Mean limb lengths over up to 200 clips, evenly chosen, and all their persons.
-std::vector<float> mean_bone_lengths(const ingest::Dataset& dataset) {
-    const auto k = dataset.header().topology.joints();
-    const auto clips = dataset.clips().size(), looks = std::min<std::size_t>(clips, 200);
-    std::vector<double> sums(k, 0);
-    std::size_t bodies = 0;
-    for (std::size_t i = 0; i < looks; ++i) {
-        const auto lengths = dataset.bone_length(i * clips / looks);
-        for (std::size_t at = 0; at < lengths.size(); ++at) sums[at % k] += lengths[at];
-        bodies += lengths.size() / k;
-    }
-    if (bodies == 0) throw Error("{} has no clips to take limb lengths from", dataset.folder().string());
-    std::vector<float> mean(k);
-    for (std::size_t j = 0; j < k; ++j) mean[j] = static_cast<float>(sums[j] / static_cast<double>(bodies));
-    return mean;
-}
-
-Body body_for(std::uint32_t joints, const fs::path& path, const Wanted& wanted) {
-    Body body;
+/// From --bones where it is given, else from the file itself, else NTU's skeleton with usual lengths.
+Drawn body_for(const ingest::MotionsFile& file, const fs::path& path, const Wanted& wanted) {
+    const auto joints = file.read(file.names()[0]).joints;
+    Drawn drawn;
+    std::string source = path.string();
     if (!wanted.bones.empty()) {
-        body.dataset.emplace(wanted.bones);
-        body.topology = body.dataset->header().topology;
-        if (body.topology.joints() != joints)
-            throw Error("{} has motions of {} joints, and {} of {}; give the --bones it was trained on",
-                        path.string(), joints, wanted.bones.string(), body.topology.joints());
-        body.lengths = mean_bone_lengths(*body.dataset);
+        source = wanted.bones.string();
+        drawn.dataset.emplace(wanted.bones);
+        drawn.subjects = ingest::subjects_of(*drawn.dataset);
+    } else if (file.subjects()) {
+        drawn.subjects = *file.subjects();
     } else if (joints == ingest::ntu25().joints()) {
-        body.topology = ingest::ntu25();
-        body.lengths = usual_bone_lengths(body.topology);
+        drawn.subjects.topology = ingest::ntu25();
+        drawn.subjects.bone_length = usual_bone_lengths(drawn.subjects.topology);
     } else {
         throw Error(
             "{} does not say how its {} joints hang together; give --bones DATASET with the same skeleton",
             path.string(), joints);
     }
-    return body;
+    if (drawn.subjects.topology.joints() != joints)
+        throw Error("{} has motions of {} joints, and {} says {}; give the --bones it was trained on",
+                    path.string(), joints, source, drawn.subjects.topology.joints());
+    return drawn;
 }
 
 /// The class of a motion in the public layout: the clip's own in --bones, else what follows A in its name,
 /// counted from 1.
-std::optional<std::uint32_t> label_of(const std::string& name, const Body& body) {
-    if (body.dataset)
-        if (const auto clip = body.dataset->find(name)) return body.dataset->clips()[*clip].label;
+std::optional<std::uint32_t> label_of(const std::string& name, const Drawn& drawn) {
+    if (drawn.dataset)
+        if (const auto clip = drawn.dataset->find(name)) return drawn.dataset->clips()[*clip].label;
     const auto at = name.rfind('A');
     if (at == std::string::npos) return {};
     const auto digits = name.substr(at + 1, name.find_first_not_of("0123456789", at + 1) - at - 1);
@@ -197,7 +202,8 @@ std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wante
     const ingest::MotionsFile file(path);
     const auto& names = file.names();
     if (names.empty()) throw Error("{} has no motions in it", path.string());
-    const auto body = body_for(file.read(names[0]).joints, path, wanted);
+    const auto drawn = body_for(file, path, wanted);
+    const auto& subjects = drawn.subjects;
 
     std::vector<std::size_t> picks;
     for (const auto& name : wanted.clips) {
@@ -209,18 +215,15 @@ std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wante
     }
     if (wanted.clips.empty()) {
         std::vector<Candidate> candidates;
-        for (std::size_t i = 0; i < names.size(); ++i) candidates.push_back({i, label_of(names[i], body)});
-        picks = spread(of_class(std::move(candidates), wanted, body.classes(), path.string()), wanted.count);
+        for (std::size_t i = 0; i < names.size(); ++i) candidates.push_back({i, label_of(names[i], drawn)});
+        picks = chosen(of_class(std::move(candidates), wanted, subjects.classes, path.string()), wanted,
+                       wanted.count);
     }
-    const double fps = body.dataset ? body.dataset->header().fps : 30;
     std::vector<Figure> figures;
     for (const auto i : picks) {
         const auto motion = file.read(names[i]);
-        std::vector<float> lengths;
-        for (std::uint32_t p = 0; p < motion.persons; ++p)
-            lengths.insert(lengths.end(), body.lengths.begin(), body.lengths.end());
-        figures.push_back(figure_of(motion, body.topology, lengths, fps,
-                                    title_of(names[i], label_of(names[i], body), body.classes())));
+        figures.push_back(figure_of(motion, subjects.topology, drawn.lengths(motion.persons), subjects.fps,
+                                    title_of(names[i], label_of(names[i], drawn), subjects.classes)));
     }
     return figures;
 }

@@ -14,8 +14,9 @@ struct Wanted {
     std::string split = "all";       ///< of datasets
     std::string label;               ///< a class's name or its number from 0; empty: any
     std::size_t count = 6;           ///< motions to pick
+    std::size_t per_class = 0;       ///< of every class, in its place; 0 picks `count` in all
     std::filesystem::path
-        bones;  ///< dataset whose skeleton and mean limb lengths a motions file is drawn with
+        bones;  ///< dataset whose skeleton and mean limb lengths a motions file is drawn with; empty: its own
 };
 
 /// The motions wanted of what lies at `path`. Throws Error naming `path` and what it lacks.

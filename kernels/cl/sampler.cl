@@ -11,7 +11,7 @@
 //   labels      (samples)             uint
 //   picks       (samples)             uint2  clip, first frame: what was drawn
 //
-// Random words, key the seed: counter (block, sample, batch low, batch high). Block 0 holds a 64-bit number for the class,
+// Random words, key the seed: counter (block, first_sample + sample, batch low, batch high). Block 0 holds a 64-bit number for the class,
 // a word for the clip and a word for the first frame; blocks from 1 on hold a word for each swap of persons. A number
 // below n is the high half of word * n: its bias, n in 2^32 (for the class in 2^64), is beyond any sample to see.
 
@@ -67,13 +67,14 @@ uint find_class(global const ulong* class_edge, uint drawn, ulong at) {
 // One work-item a (frame, sample): each draws its sample's choices anew, which is cheaper than a second launch.
 kernel void draw(global const float* motion, global const uint4* clip, global const uint* by_class,
                  global const uint* class_first, global const ulong* class_edge, uint drawn, uint seed_low,
-                 uint seed_high, uint batch_low, uint batch_high, uint permute, uint samples, uint window,
-                 uint persons, uint joints, uint channels, global float* values, global uint* labels,
-                 global uint2* picks) {
+                 uint seed_high, uint batch_low, uint batch_high, uint first_sample, uint permute,
+                 uint samples, uint window, uint persons, uint joints, uint channels, global float* values,
+                 global uint* labels, global uint2* picks) {
     const uint t = get_global_id(0), sample = get_global_id(1);
     if (t >= window || sample >= samples) return;
     const uint2 key = (uint2)(seed_low, seed_high);
-    const uint4 counter = (uint4)(0, sample, batch_low, batch_high), words = philox(counter, key);
+    const uint4 counter = (uint4)(0, first_sample + sample, batch_low, batch_high),
+                words = philox(counter, key);
 
     const ulong at = mul_hi(((ulong)words.y << 32) | words.x, class_edge[drawn - 1]);
     const uint class = find_class(class_edge, drawn, at);

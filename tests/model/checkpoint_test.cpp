@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/error.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer::model;
@@ -10,14 +11,14 @@ using namespace actformer::test;
 
 namespace {
 
-Checkpoint sample(std::uint64_t epoch) {
-    return {epoch,
-            {{"steps", 7}, {"best", 0.25}},
-            {{"a", {2, 2}, {1, 2, 3, static_cast<float>(epoch)}}, {"b", {}, {5}}}};
+Checkpoint sample(std::uint64_t done) {
+    return {done,
+            {{"model", "toy"}, {"best", 0.25}},
+            {{"a", {2, 2}, {1, 2, 3, static_cast<float>(done)}}, {"b", {}, {5}}}};
 }
 
 void expect_same(const Checkpoint& a, const Checkpoint& b) {
-    EXPECT_EQ(a.epoch, b.epoch);
+    EXPECT_EQ(a.done, b.done);
     EXPECT_EQ(a.state, b.state);
     ASSERT_EQ(a.arrays.size(), b.arrays.size());
     for (std::size_t i = 0; i < a.arrays.size(); ++i) {
@@ -49,19 +50,33 @@ TEST(Checkpoint, TheOneBeforeIsKeptAndUsed) {
     TempDir dir;
     std::vector<std::string> notes;
     const auto note = [&](const std::string& line) { notes.push_back(line); };
-    EXPECT_FALSE(newest_checkpoint(dir.path(), note));
-    for (const std::uint64_t epoch : {9, 10, 11}) save_checkpoint(dir.path(), sample(epoch));
-    EXPECT_FALSE(std::filesystem::exists(dir / "checkpoint-00009"));
-    expect_same(*newest_checkpoint(dir.path(), note), sample(11));
+    EXPECT_FALSE(newest_checkpoint(dir.path(), "toy", note));
+    for (const std::uint64_t done : {99998, 99999, 100000}) save_checkpoint(dir.path(), sample(done));
+    EXPECT_FALSE(std::filesystem::exists(dir / "checkpoint-99998"));
+    expect_same(*newest_checkpoint(dir.path(), "toy", note), sample(100000));
     EXPECT_TRUE(notes.empty());
 
-    std::filesystem::resize_file(dir / "checkpoint-00011", 100);
-    expect_same(*newest_checkpoint(dir.path(), note), sample(10));
+    std::filesystem::resize_file(dir / "checkpoint-100000", 100);
+    expect_same(*newest_checkpoint(dir.path(), "toy", note), sample(99999));
     ASSERT_EQ(notes.size(), 1U);
     EXPECT_NE(notes[0].find("going back to the one before"), std::string::npos);
 
-    write_file(dir / "checkpoint-00010", "");
-    EXPECT_FALSE(newest_checkpoint(dir.path(), note));
+    write_file(dir / "checkpoint-99999", "");
+    EXPECT_FALSE(newest_checkpoint(dir.path(), "toy", note));
     ASSERT_EQ(notes.size(), 2U);
     EXPECT_NE(notes[1].find("starting anew"), std::string::npos);
+}
+
+TEST(Checkpoint, DamagedOnesAreSetAsideAndForeignOnesRefused) {
+    TempDir dir;
+    const auto note = [](const std::string&) {};
+    write_file(dir / "checkpoint-00003", "PK not one of ours");
+    EXPECT_FALSE(newest_checkpoint(dir.path(), "toy", note));
+    EXPECT_EQ(read_file(dir / "checkpoint-00003.damaged"), "PK not one of ours");
+
+    save_checkpoint(dir.path(), sample(4));
+    EXPECT_THROW(newest_checkpoint(dir.path(), "generator", note), actformer::Error);
+    write_file(dir / "checkpoint-00005", "actformer checkpoint 9\nwhat versions to come may write");
+    EXPECT_THROW(newest_checkpoint(dir.path(), "toy", note), actformer::Error);
+    EXPECT_TRUE(std::filesystem::exists(dir / "checkpoint-00005"));
 }

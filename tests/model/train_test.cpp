@@ -1,67 +1,22 @@
 // `actformer train recogniser` and `actformer model` as their users meet them, on toy motions told apart by what turns.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/file.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <fmt/format.h>
 #include <chrono>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "ingest/hdf5.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tests/support/toy_dataset.hpp"
 
 using namespace actformer::test;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Class c swings its joint c, at a pace and phase that differ from clip to clip.
-std::string toy_clip(int label, int index) {
-    std::string text =
-        "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Xrotation Yrotation "
-        "Zrotation\n";
-    for (int j = 0; j < 3; ++j)
-        text += fmt::format(
-            "JOINT J{}\n{{\nOFFSET 0 20 0\nCHANNELS 3 Xrotation Yrotation Zrotation\nEnd Site\n{{\nOFFSET 0 "
-            "5 0\n}}\nJOINT "
-            "K{}\n{{\nOFFSET 5 9 0\nCHANNELS 1 Zrotation\n}}\n}}\n",
-            j, j);
-    text += "}\nMOTION\nFrames: 40\nFrame Time: 0.0333333\n";
-    for (int t = 0; t < 40; ++t) {
-        text += "0 90 0 0 0 0";
-        for (int j = 0; j < 3; ++j)
-            text +=
-                fmt::format(" {:.3f} 0 0 0",
-                            j == label ? 60 * std::sin((0.2 + 0.01 * (index % 5)) * t + index) : 2.0 * index);
-        text += "\n";
-    }
-    return text;
-}
-
-/// A dataset of three classes, made once for all tests: 12 clips each in split s/train, 4 in s/test; class c2 is not in
-/// split s/two, and split s/none is empty.
-const fs::path& toy() {
-    static const TempDir dir;
-    static const fs::path out = [] {
-        for (int label = 0; label < 3; ++label)
-            for (int i = 0; i < 16; ++i)
-                write_file(dir / fmt::format("raw/c{}_{}_{}.bvh", label, i < 12 ? "a" : "b", i),
-                           toy_clip(label, i));
-        const auto result =
-            run_actformer("ingest bvh " + (dir / "raw").string() + " -o " + (dir / "toy").string() +
-                          " --name '{action}_{part}_{index}' --split s/train=part:a --split s/test=part:b"
-                          " --split s/two=action:c0,c1 --split s/none=part:z");
-        EXPECT_EQ(result.exit, 0) << result.output;
-        return dir / "toy";
-    }();
-    return out;
-}
 
 struct TrainRecogniser : testing::Test {
     void SetUp() override {
@@ -77,27 +32,11 @@ struct TrainRecogniser : testing::Test {
         return run_actformer(line(run, more));
     }
 
-    void expect_refused(const CommandResult& result, const std::vector<std::string>& words) const {
-        EXPECT_EQ(result.exit, 1) << result.output;
-        const auto last = result.output.substr(result.output.rfind("actformer: "));
-        EXPECT_EQ(lines_in(last), 1) << result.output;
-        for (const auto& word : words) EXPECT_NE(last.find(word), std::string::npos) << word << ": " << last;
-    }
-
     /// Starts a training and kills it once `file` is there.
     void train_and_kill(const std::string& run, const std::string& file) const {
-        const auto child = ::fork();
-        if (child == 0) {
-            const auto command =
-                "exec " ACTFORMER_PROGRAM " " + line(run, "threads=2") + " 2>/dev/null >/dev/null";
-            ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-            ::_exit(127);
-        }
+        const Child child(line(run, "threads=2"));
         for (int i = 0; i < 6000 && !fs::exists(dir / (run + "/" + file)); ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        ::kill(child, SIGKILL);
-        int status = 0;
-        ::waitpid(child, &status, 0);
     }
 
     TempDir dir;

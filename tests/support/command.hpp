@@ -1,12 +1,17 @@
 // Runs a command line as a user would.
 #pragma once
 
+#include <signal.h>
 #include <sys/wait.h>
+#include <unistd.h>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace actformer::test {
 
@@ -30,8 +35,49 @@ inline CommandResult run_actformer(const std::string& arguments) {
     return run_command(std::string(ACTFORMER_PROGRAM) + " " + arguments);
 }
 
+/// The same program running beside the test, gone at the latest with this.
+class Child {
+  public:
+    explicit Child(const std::string& arguments, const std::string& output = "/dev/null") : pid_(::fork()) {
+        if (pid_ != 0) return;
+        const auto command =
+            "trap '' XFSZ; exec " ACTFORMER_PROGRAM " " + arguments + " >" + output + " 2>&1";
+        ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+        ::_exit(127);
+    }
+    ~Child() {
+        if (pid_ > 0) ::kill(pid_, SIGKILL);
+        wait();
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    pid_t pid() const { return pid_; }
+
+    /// Its exit code; 128 and the signal's number where one ended it.
+    int wait() {
+        if (pid_ > 0) ::waitpid(pid_, &status_, 0);
+        pid_ = 0;
+        return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+    }
+
+  private:
+    pid_t pid_;
+    int status_ = 0;
+};
+
 inline long lines_in(const std::string& text) {
     return std::count(text.begin(), text.end(), '\n');
+}
+
+/// Exit code 1 and, last of all, one line with every one of `words` in it.
+inline void expect_refused(const CommandResult& result, const std::vector<std::string>& words) {
+    EXPECT_EQ(result.exit, 1) << result.output;
+    const auto at = result.output.rfind("actformer: ");
+    ASSERT_NE(at, std::string::npos) << result.output;
+    const auto last = result.output.substr(at);
+    EXPECT_EQ(lines_in(last), 1) << result.output;
+    for (const auto& word : words) EXPECT_NE(last.find(word), std::string::npos) << word << ": " << last;
 }
 
 /// Debian's own Python with the modules that the reference programs need.

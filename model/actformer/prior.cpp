@@ -1,0 +1,65 @@
+#include "model/actformer/prior.hpp"
+
+#include <ATen/Parallel.h>
+
+#include "kernels/error.hpp"
+#include "model/actformer/random_kernel.hpp"
+
+namespace actformer::model {
+namespace {
+
+/// Added to the diagonal of covariances of rank far below their size, so that they have a factor in double.
+constexpr double jitter = 1e-6;
+
+constexpr std::uint8_t for_latents = 1, for_labels = 2;
+
+at::Tensor exact_covariance(const PriorSettings& settings, std::int64_t channel, std::int64_t frames) {
+    const double length = settings.length_scale * static_cast<double>(channel + 1) / settings.channels;
+    const auto t = at::arange(frames, at::kDouble);
+    return (-((t.unsqueeze(1) - t.unsqueeze(0)) / length).square()).exp();
+}
+
+}  // namespace
+
+Prior::Prior(const PriorSettings& settings, std::uint64_t seed) : settings_(settings), seed_(seed) {}
+
+at::Tensor Prior::covariance(const PriorSettings& settings, std::int64_t channel, std::int64_t frames) {
+    return settings.kind == PriorKind::gp ? exact_covariance(settings, channel, frames)
+                                          : at::ones({frames, frames}, at::kDouble);
+}
+
+at::Tensor Prior::factors(std::int64_t frames) const {
+    const std::lock_guard lock(mutex_);
+    auto& factors = factors_[frames];
+    if (factors.defined()) return factors;
+    std::vector<at::Tensor> covariances;
+    for (std::int64_t c = 0; c < settings_.channels; ++c)
+        covariances.push_back(exact_covariance(settings_, c, frames));
+    const auto smoothed = at::stack(covariances) + jitter * at::eye(frames, at::kDouble);
+    return factors = at::linalg_cholesky(smoothed).transpose(1, 2).to(at::kFloat).contiguous();
+}
+
+at::Tensor Prior::draw(std::uint64_t index, std::int64_t count, std::int64_t frames,
+                       std::uint64_t first_sample) const {
+    const at::NoGradGuard no_gradients;
+    const std::int64_t streams = settings_.streams, channels = settings_.channels;
+    const bool gp = settings_.kind == PriorKind::gp;
+    auto numbers = at::empty({count, streams, channels, gp ? frames : 1}, at::kFloat);
+    cpu::normal_numbers({seed_, index, for_latents}, first_sample, count,
+                        numbers.numel() / std::max<std::int64_t>(1, count), numbers.data_ptr<float>(),
+                        at::get_num_threads());
+    if (!gp) return numbers.permute({0, 1, 3, 2}).expand({count, streams, frames, channels}).contiguous();
+    const auto by_channel = numbers.view({count * streams, channels, frames}).transpose(0, 1);
+    const auto smooth = at::bmm(by_channel, factors(frames));  // (channels, count * streams, frames)
+    return smooth.permute({1, 2, 0}).reshape({count, streams, frames, channels}).contiguous();
+}
+
+at::Tensor Prior::labels(std::uint64_t index, std::int64_t count, std::int64_t classes,
+                         std::uint64_t first_sample) const {
+    auto labels = at::empty({count}, at::kLong);
+    cpu::whole_numbers({seed_, index, for_labels}, first_sample, count, static_cast<std::uint32_t>(classes),
+                       labels.data_ptr<std::int64_t>());
+    return labels;
+}
+
+}  // namespace actformer::model

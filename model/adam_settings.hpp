@@ -1,0 +1,10 @@
+// What Adam is told.
+#pragma once
+
+namespace actformer::model {
+
+struct AdamSettings {
+    double rate = 2e-4, beta1 = 0, beta2 = 0.999, epsilon = 1e-8;
+};
+
+}  // namespace actformer::model
