@@ -36,17 +36,11 @@ std::vector<std::uint32_t> read_labels(const ingest::hdf5::Reader& file, const s
 
 FeaturesFile::FeaturesFile(const std::filesystem::path& path, std::uint64_t sequences, std::uint64_t features,
                            std::uint64_t classes)
-    : path_(path),
-      aside_(path.string() + ".partial"),
+    : aside_(path),
       sequences_(sequences),
       features_(features),
       classes_(classes),
-      writer_(aside_) {}
-
-FeaturesFile::~FeaturesFile() {
-    std::error_code gone;
-    std::filesystem::remove(aside_, gone);
-}
+      writer_(aside_.partial()) {}
 
 void FeaturesFile::add(std::uint64_t first, std::span<const float> features, std::span<const float> logits) {
     writer_.write_rows("features", {sequences_, features_}, first, features);
@@ -70,12 +64,7 @@ void FeaturesFile::frames(std::uint32_t shortest, std::uint32_t longest) {
 }
 
 void FeaturesFile::finish() {
-    std::error_code error;
-    if (writer_.finish())
-        std::filesystem::rename(aside_, path_, error);
-    else
-        error = std::make_error_code(std::errc::no_space_on_device);
-    if (error) throw Error("{}: cannot be written: {}", path_.string(), error.message());
+    aside_.commit(writer_.finish());
 }
 
 StoredFeatures read_features(const std::filesystem::path& path) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "eval/scores.hpp"
+#include "ingest/aside.hpp"
 #include "ingest/hdf5.hpp"
 
 namespace actformer::eval {
@@ -16,9 +17,6 @@ class FeaturesFile {
     /// Written beside `path` until finish(). Throws Error where that cannot be.
     FeaturesFile(const std::filesystem::path& path, std::uint64_t sequences, std::uint64_t features,
                  std::uint64_t classes);
-    ~FeaturesFile();
-    FeaturesFile(const FeaturesFile&) = delete;
-    FeaturesFile& operator=(const FeaturesFile&) = delete;
 
     /// `rows` consecutive sequences from `first` on: features (rows, features), logits (rows, classes), none where there
     /// are no classes.
@@ -33,7 +31,7 @@ class FeaturesFile {
     void finish();
 
   private:
-    std::filesystem::path path_, aside_;
+    ingest::Aside aside_;
     std::uint64_t sequences_, features_, classes_;
     ingest::hdf5::Writer writer_;
 };

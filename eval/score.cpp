@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "eval/real_features.hpp"
+#include "ingest/aside.hpp"
 #include "ingest/checksum.hpp"
 #include "kernels/error.hpp"
 
@@ -31,11 +32,11 @@ void widen(Samples& samples, std::size_t classes) {
 }
 
 void copy_whole(const fs::path& from, const fs::path& to) {
-    const auto aside = to.string() + ".partial";
+    ingest::Aside aside(to);
     std::error_code error;
-    fs::copy_file(from, aside, fs::copy_options::overwrite_existing, error);
-    if (!error) fs::rename(aside, to, error);
+    fs::copy_file(from, aside.partial(), fs::copy_options::overwrite_existing, error);
     if (error) throw Error("{}: cannot be written: {}", to.string(), error.message());
+    aside.commit();
 }
 
 void warn_of_lengths(ScoreReport& report, std::uint32_t window, const StoredFeatures& generated) {
