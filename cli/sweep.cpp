@@ -101,7 +101,7 @@ std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, c
 
 /// This command again, for Slurm's jobs, which may land on other machines with the same file system.
 std::vector<std::string> again(const Options& options) {
-    return {fs::absolute(options.program).string(),
+    return {(reports::program_folder() / "actformer").string(),
             "sweep",
             fs::absolute(options.file).string(),
             "-o",

@@ -91,7 +91,7 @@ TEST_F(Sweep, DoesSharedWorkOnce) {
     const auto result = sweep();
     ASSERT_EQ(result.exit, 0) << result.output;
     EXPECT_EQ(calls_of("synth"), 1);
-    EXPECT_EQ(calls_of("ingest"), 1);
+    EXPECT_EQ(calls_of("ingest ntu"), 1);
     EXPECT_EQ(calls_of("train recogniser"), 1);
     EXPECT_EQ(calls_of("train generator"), 2);
     EXPECT_EQ(calls_of("generate --generator"), 2);
