@@ -13,6 +13,7 @@ void add_export(CLI::App& app);
 void add_render(CLI::App& app);
 void add_features(CLI::App& app);
 void add_score(CLI::App& app);
+void add_sweep(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_train(CLI::App& app);
 void add_train_generator(CLI::App& train);

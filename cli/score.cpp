@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <memory>
+#include <set>
 
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
@@ -69,7 +70,7 @@ fs::path weights_of(const fs::path& recogniser) {
     return fs::is_directory(recogniser) ? recogniser / "weights-best.h5" : recogniser;
 }
 
-/// Of all files of a generator's folder that decide what it generates.
+/// Of a generator's weights, or of all files of its folder that decide what it generates.
 std::string fingerprint_of(const fs::path& run) {
     if (!fs::is_directory(run))
         throw Error("{}: no such folder; --generator names the folder of a generator's training",
@@ -85,14 +86,25 @@ std::string fingerprint_of(const fs::path& run) {
     return all.hex();
 }
 
-eval::MotionSet generated_set(const Options& options, const std::string& fingerprint, std::uint64_t seed,
-                              const fs::path& work) {
+/// Numbers from 1 of the classes that the real side has, where these are not all: no others can be scored.
+std::string classes_to_generate(const eval::ScoreRequest& request) {
+    const ingest::Dataset dataset(request.real);
+    std::set<std::uint32_t> labels;
+    for (const auto clip : dataset.split(request.split)) labels.insert(dataset.clips()[clip].label);
+    if (labels.size() == dataset.header().classes.size()) return {};
+    std::string out;
+    for (const auto label : labels) out += fmt::format("{}{}", out.empty() ? "" : ",", label + 1);
+    return out;
+}
+
+eval::MotionSet generated_set(const Options& options, const std::string& fingerprint,
+                              const std::string& classes, std::uint64_t seed, const fs::path& work) {
     eval::MotionSet set;
     set.name = fmt::format("{}, seed {}", options.generator.string(), seed);
-    set.key = fmt::format("{}|{}|{}", fingerprint, seed, options.per_class);
+    set.key = fmt::format("{}|{}|{}|{}", fingerprint, seed, options.per_class, classes);
     set.seed = seed;
     set.temporary = true;
-    set.file = [&options, seed, work] {
+    set.file = [&options, classes, seed, work] {
         const auto motions = work / fmt::format("seed-{}.h5", seed);
         std::vector<std::string> command{options.program,
                                          "generate",
@@ -104,6 +116,7 @@ eval::MotionSet generated_set(const Options& options, const std::string& fingerp
                                          std::to_string(seed),
                                          "--per-class",
                                          std::to_string(options.per_class)};
+        if (!classes.empty()) command.insert(command.end(), {"--classes", classes});
         const auto result = reports::run_process(command, work / "generate.log");
         if (result.exit != 0)
             throw Error(
@@ -151,9 +164,9 @@ eval::ScoreRequest prepared(const Options& options, const fs::path& work) {
             eval::read_labels_file(options.labels, ingest::Dataset(request.real).header().classes);
     for (const auto& path : options.generated) request.generated.push_back(eval::motions_in(path));
     if (options.generator.empty()) return request;
-    const auto fingerprint = fingerprint_of(options.generator);
+    const auto fingerprint = fingerprint_of(options.generator), classes = classes_to_generate(request);
     for (std::size_t i = 0; i < options.repeats; ++i)
-        request.generated.push_back(generated_set(options, fingerprint, options.seed + i, work));
+        request.generated.push_back(generated_set(options, fingerprint, classes, options.seed + i, work));
     return request;
 }
 
@@ -249,8 +262,8 @@ void add_motion_options(CLI::App* command, Options& options) {
         ->type_name("FILE");
     command
         ->add_option("--generator", options.generator,
-                     "Folder of a generator's training: its motions are made")
-        ->type_name("RUN");
+                     "Folder of a generator's training, or its weights: its motions are made")
+        ->type_name("RUN|WEIGHTS.h5");
     command->add_option("--repeats", options.repeats, "Seeds that the generator is scored with")
         ->check(CLI::Range(1, 10'000))
         ->capture_default_str();

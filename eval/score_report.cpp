@@ -39,14 +39,20 @@ std::vector<std::size_t> left_out(const ScoreReport& report) {
 
 void warn_of_counts(ScoreReport& report) {
     std::vector<std::string> missing, thin;
+    std::size_t absent = 0;
     for (std::size_t c = 0; c < report.classes.size(); ++c) {
         const auto real = report.real[c], made = fewest(report, c);
         const auto line = fmt::format("{} ({} real, {} generated)", report.classes[c], real, made);
-        if (real < 2 || made < 2)
+        if (real == 0 && made == 0)
+            ++absent;
+        else if (real < 2 || made < 2)
             missing.push_back(line);
         else if (std::min(real, made) < thin_class)
             thin.push_back(line);
     }
+    if (absent > 0)
+        report.warnings.push_back(
+            fmt::format("{} of {} classes have no sample on either side", absent, report.classes.size()));
     if (!missing.empty())
         report.warnings.push_back(fmt::format(
             "left out of the per-class FID, having fewer than 2 samples on a side: {} of {} classes: {}",
