@@ -11,7 +11,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "eval/labels_file.hpp"
-#include "eval/score.hpp"
+#include "eval/weights.hpp"
 #include "ingest/checksum.hpp"
 #include "ingest/dataset.hpp"
 #include "ingest/file.hpp"
@@ -64,11 +64,6 @@ class WorkFolder {
     fs::path path_;
     bool kept_;
 };
-
-/// A training's folder stands for its weights.
-fs::path weights_of(const fs::path& recogniser) {
-    return fs::is_directory(recogniser) ? recogniser / "weights-best.h5" : recogniser;
-}
 
 /// Of a generator's weights, or of all files of its folder that decide what it generates.
 std::string fingerprint_of(const fs::path& run) {
@@ -152,8 +147,9 @@ eval::ScoreRequest prepared(const Options& options, const fs::path& work) {
     request.work = work;
     request.options.seed = options.seed;
     if (!request.real_features.empty()) return request;
-    request.recogniser = weights_of(request.recogniser);
-    if (!request.single_recogniser.empty()) request.single_recogniser = weights_of(request.single_recogniser);
+    request.recogniser = eval::weights_of(request.recogniser);
+    if (!request.single_recogniser.empty())
+        request.single_recogniser = eval::weights_of(request.single_recogniser);
     const auto folders = ingest::datasets_at(request.real);
     if (folders.size() != 1)
         throw Error("{}: holds {} datasets; take one at a time, as in {}", request.real.string(),

@@ -170,6 +170,12 @@ Weights random_weights(std::uint32_t channels, std::uint32_t classes, const std:
     return weights;
 }
 
+std::filesystem::path weights_of(const std::filesystem::path& recogniser) {
+    if (!std::filesystem::is_directory(recogniser)) return recogniser;
+    const auto best = recogniser / "weights-best.h5";
+    return std::filesystem::exists(best) ? best : recogniser / "weights-last.h5";
+}
+
 const std::vector<int> ntu_edges{-1, 0,  20, 2, 20, 4,  5,  6, 20, 8, 9,  10, 0,
                                  12, 13, 14, 0, 16, 17, 18, 1, 22, 7, 24, 11};
 
