@@ -9,7 +9,8 @@
 namespace actformer::model::cpu {
 namespace {
 
-constexpr std::uint32_t factor_a = 0xD2511F53, factor_b = 0xCD9E8D57, step_low = 0x9E3779B9, step_high = 0xBB67AE85;
+constexpr std::uint32_t factor_a = 0xD2511F53, factor_b = 0xCD9E8D57, step_low = 0x9E3779B9,
+                        step_high = 0xBB67AE85;
 constexpr int rounds = 10;
 
 struct Key {
@@ -53,7 +54,8 @@ void make_words(Key key, std::uint64_t sample, std::uint32_t first, std::uint32_
 /// In (0, 1], in steps of 2^-24.
 Floats portion(const std::uint32_t* words) {
     Floats out;
-    for (std::ptrdiff_t i = 0; i < lanes<float>; ++i) out[i] = static_cast<float>((words[i] >> 8) + 1) * 0x1p-24F;
+    for (std::ptrdiff_t i = 0; i < lanes<float>; ++i)
+        out[i] = static_cast<float>((words[i] >> 8) + 1) * 0x1p-24F;
     return out;
 }
 
@@ -99,7 +101,8 @@ void normal_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t 
         float* to = values + s * count;
         std::int64_t i = 0;
         const auto block = [&] { return static_cast<std::uint32_t>(i / 4); };
-        for (; i + numbers_together <= count; i += numbers_together) make_normals(key, sample, block(), to + i);
+        for (; i + numbers_together <= count; i += numbers_together)
+            make_normals(key, sample, block(), to + i);
         if (i == count) continue;
         float rest[numbers_together];
         make_normals(key, sample, block(), rest);

@@ -92,7 +92,8 @@ inline Turn turned(Floats x) {
     constexpr float shift = 12582912.0F;
     const Floats shifted = x * 4.0F + shift, quarters = shifted - shift;
     const Bits quarter = Bits(shifted);
-    const Floats angle = (x - quarters * 0.25F) * 6.28318530718F, square = angle * angle;  // within an eighth of a turn
+    const Floats angle = (x - quarters * 0.25F) * 6.28318530718F,
+                 square = angle * angle;  // within an eighth of a turn
     Floats s = square * -1.9515295891e-4F + 8.3321608736e-3F;
     s = s * square - 1.6666654611e-1F;
     s = s * square * angle + angle;

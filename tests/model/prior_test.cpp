@@ -46,7 +46,8 @@ TEST(RandomKernel, NormalNumbersAreBoxAndMullersOfItsWords) {
     cpu::normal_numbers(place, 8, 2, count, values.data(), 1);
     for (std::int64_t s = 0; s < 2; ++s)
         for (std::int64_t i = 0; i < count; ++i) {
-            const auto lane = static_cast<std::uint32_t>(i % 16), half = static_cast<std::uint32_t>(i / 32 % 2);
+            const auto lane = static_cast<std::uint32_t>(i % 16),
+                       half = static_cast<std::uint32_t>(i / 32 % 2);
             const auto words = cpu::random_words(place, static_cast<std::uint64_t>(8 + s),
                                                  static_cast<std::uint32_t>(i / 64 * 16) + lane);
             const auto portion = [&](std::size_t w) { return ((words[2 * half + w] >> 8) + 1) * 0x1p-24; };
