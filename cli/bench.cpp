@@ -8,6 +8,7 @@ void add_bench(CLI::App& app) {
     command->require_subcommand(1);
     add_bench_ingest(*command);
     add_bench_features(*command);
+    add_bench_score(*command);
 }
 
 }  // namespace actformer::cli

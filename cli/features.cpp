@@ -8,6 +8,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "eval/features.hpp"
+#include "eval/weights.hpp"
 #include "ingest/dataset.hpp"
 
 namespace actformer::cli {
@@ -45,8 +46,7 @@ void run(const Options& options) {
                         folders.size(), folders[0].string());
         request.input = folders[0];
     }
-    if (std::filesystem::is_directory(request.recogniser))
-        request.recogniser /= "weights-best.h5";  // of a run
+    request.recogniser = eval::weights_of(request.recogniser);
     kernels::Device device(options.device);
     Progress progress("features", "sequences", options.json);
     const auto summary = eval::make_features(request, device, [&](std::uint64_t done, std::uint64_t all) {

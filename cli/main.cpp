@@ -66,6 +66,8 @@ int main(int argc, char** argv) {
         add_inspect(app);
         add_export(app);
         add_features(app);
+        add_score(app);
+        add_sweep(app);
         for (const auto& sub : subprograms)
             if (std::filesystem::exists(path_of(sub))) app.add_subcommand(sub.command, sub.description);
         add_bench(app);

@@ -6,7 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
-#include "reports/film.hpp"
+#include "ingest/aside.hpp"
 #include "reports/gather.hpp"
 #include "reports/render.hpp"
 
@@ -28,7 +28,7 @@ struct Options {
 void render(const Options& options) {
     const auto kind = reports::picture_kind(options.output);
     {
-        const reports::Aside probe(options.output);
+        const ingest::Aside probe(options.output);
     }  // what cannot be written is said before the work, not after
     reports::Layout layout;
     layout.view = reports::parse_view(options.view);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "eval/features_file.hpp"
+#include "eval/scores.hpp"
 #include "eval/tuning.hpp"
 #include "eval/view.hpp"
 #include "ingest/checksum.hpp"
@@ -54,43 +55,77 @@ struct MotionList {
     std::vector<std::string> names;
     std::map<std::uint32_t, std::vector<Entry>> by_frames;
     std::vector<std::uint32_t> labels;  ///< of all names, or empty
+    std::uint32_t seen_a_motion = 1;    ///< sequences that the recogniser is shown of each
 };
+
+/// Sequences that a recogniser of `channels` channels sees of a motion of `stored` channels; none where it cannot.
+std::uint32_t sequences_of(std::uint64_t stored, std::uint32_t channels, bool persons_apart) {
+    if (!persons_apart) return stored == channels;
+    return static_cast<std::uint32_t>(channels > 0 && stored % channels == 0 ? stored / channels : 0);
+}
+
+void check_shape(const ingest::hdf5::Shape& shape, const std::string& name, const FeaturesRequest& request,
+                 const Weights& weights) {
+    const auto where = request.input.string();
+    if (shape.size() != 3 || shape[0] % 3 != 0) throw Error("{}: '{}' is no (P*3, K, T) array", where, name);
+    if (sequences_of(shape[0], weights.channels, request.persons_apart) == 0 || shape[1] != weights.joints())
+        throw Error(
+            "{}: '{}' has {} channels and {} joints where the recogniser {} takes {} and {}; choose one "
+            "trained on such motions",
+            where, name, shape[0], shape[1], weights.source, weights.channels, weights.joints());
+    if (shape[2] == 0 || shape[2] < request.frames)
+        throw Error("{}: '{}' has {} frames, fewer than {}; ask for fewer with --frames", where, name,
+                    shape[2], std::max(request.frames, 1U));
+}
+
+/// As given, or as all names tell; else none.
+std::vector<std::uint32_t> labels_of(const std::vector<std::string>& names, const FeaturesRequest& request,
+                                     const Weights& weights) {
+    std::vector<std::uint32_t> labels;
+    for (const auto& name : names) {
+        auto label = label_in(name);
+        if (!request.labels.empty()) {
+            const auto given = request.labels.find(name);
+            if (given == request.labels.end())
+                throw Error("{}: '{}' has no line in the labels given", request.input.string(), name);
+            label = given->second;
+        }
+        if (!label) return {};
+        if (!request.persons_apart && *label >= weights.classes)
+            throw Error("{}: '{}' is of action {} and the recogniser {} knows {} classes",
+                        request.input.string(), name, *label + 1, weights.source, weights.classes);
+        labels.push_back(*label);
+    }
+    return labels;
+}
 
 MotionList list_motions(const ingest::hdf5::Reader& file, const FeaturesRequest& request,
                         const Weights& weights) {
     MotionList list;
-    const auto where = request.input.string();
     for (const auto& name : file.names()) {
         if (!file.is_array(name)) continue;
         const auto shape = file.shape(name);
-        if (shape.size() != 3 || shape[0] % 3 != 0)
-            throw Error("{}: '{}' is no (P*3, K, T) array", where, name);
-        if (shape[0] != weights.channels || shape[1] != weights.joints())
-            throw Error(
-                "{}: '{}' has {} channels and {} joints where the recogniser {} takes {} and {}; choose one "
-                "trained on such motions",
-                where, name, shape[0], shape[1], weights.source, weights.channels, weights.joints());
-        if (shape[2] == 0 || shape[2] < request.frames)
-            throw Error("{}: '{}' has {} frames, fewer than {}; ask for fewer with --frames", where, name,
-                        shape[2], std::max(request.frames, 1U));
+        check_shape(shape, name, request, weights);
+        const auto seen = sequences_of(shape[0], weights.channels, request.persons_apart);
+        if (!list.names.empty() && seen != list.seen_a_motion)
+            throw Error("{}: '{}' has {} persons and '{}' has {}; score groups of one size at a time",
+                        request.input.string(), name, seen, list.names[0], list.seen_a_motion);
+        list.seen_a_motion = seen;
         const auto frames = request.frames ? request.frames : static_cast<std::uint32_t>(shape[2]);
         list.by_frames[frames].push_back({name, list.names.size()});
         list.names.push_back(name);
     }
     if (list.names.empty())
-        throw Error("{}: holds no motions; one (P*C, K, T) array a clip is expected", where);
-    for (const auto& name : list.names) {
-        const auto label = label_in(name);
-        if (!label) {
-            list.labels.clear();
-            break;
-        }
-        if (*label >= weights.classes)
-            throw Error("{}: '{}' is of action {} and the recogniser {} knows {} classes", where, name,
-                        *label + 1, weights.source, weights.classes);
-        list.labels.push_back(*label);
-    }
+        throw Error("{}: holds no motions; one (P*C, K, T) array a clip is expected", request.input.string());
+    list.labels = labels_of(list.names, request, weights);
     return list;
+}
+
+/// Of groups whose persons were seen one after another: the group's features, and no logits.
+Recognised grouped(Recognised seen, const FeaturesRequest& request, const Weights& weights,
+                   std::uint32_t persons) {
+    if (!request.persons_apart) return seen;
+    return {largest_of_group(seen.features, weights.features(), persons), {}};
 }
 
 /// Appends the first `frames` frames of a stored (C, K, T) motion as (C, frames, K).
@@ -123,7 +158,8 @@ FeaturesSummary features_of_motions(const FeaturesRequest& request, const Weight
     const ingest::hdf5::Reader input(request.input);
     const auto list = list_motions(input, request, weights);
     Recogniser recogniser(device, weights, tiles_for(device, request.batch));
-    FeaturesFile out(request.out, list.names.size(), weights.features(), weights.classes);
+    const std::uint32_t classes = request.persons_apart ? 0 : weights.classes;
+    FeaturesFile out(request.out, list.names.size(), weights.features(), classes);
     std::uint64_t done = 0;
     Hits hits;
     for (const auto& [frames, entries] : list.by_frames)
@@ -132,43 +168,50 @@ FeaturesSummary features_of_motions(const FeaturesRequest& request, const Weight
             std::vector<float> motions;
             for (std::size_t i = 0; i < count; ++i)
                 append_motion(input, request.input.string(), entries[first + i].name, frames, motions);
-            const auto got = recogniser.recognise(motions, static_cast<std::uint32_t>(count), frames);
+            const auto sequences = static_cast<std::uint32_t>(count) * list.seen_a_motion;
+            const auto got = grouped(recogniser.recognise(motions, sequences, frames), request, weights,
+                                     list.seen_a_motion);
             for (std::size_t i = 0; i < count; ++i) {
                 const auto row = entries[first + i].row;
-                const auto logits = std::span(got.logits).subspan(i * weights.classes, weights.classes);
+                const auto logits = std::span(got.logits).subspan(i * classes, classes);
                 out.add(row, std::span(got.features).subspan(i * weights.features(), weights.features()),
                         logits);
-                if (!list.labels.empty()) hits.add(logits, list.labels[row]);
+                if (!list.labels.empty() && classes > 0) hits.add(logits, list.labels[row]);
             }
             done += count;
             if (tell) tell(done, list.names.size());
         }
     out.names(list.names);
+    out.frames(list.by_frames.begin()->first, list.by_frames.rbegin()->first);
     if (!list.labels.empty()) out.labels(list.labels);
     note_origin(out, request);
     out.note("input", ingest::checksum_file(request.input));
     out.note("view", request.frames ? fmt::format("first {} frames", request.frames) : "whole motions");
     out.finish();
-    return {list.names.size(), weights.classes, weights.features(), !list.labels.empty(), hits.rate()};
+    return {list.names.size(), classes, weights.features(), !list.labels.empty(), hits.rate()};
 }
 
 FeaturesSummary features_of_dataset(const FeaturesRequest& request, const Weights& weights,
                                     kernels::Device& device, const Tell& tell) {
     const ingest::Dataset dataset(request.input);
-    check_fits(weights, dataset);
+    check_fits(weights, dataset, request.persons_apart);
     const auto view = load_view(device, dataset, request.split);
     const auto windows = kernels::consecutive_windows(view.store.table().frames, request.window);
     const kernels::WindowCutter cutter(view.store, windows);
     auto batch = make_batch(view.store, std::min<std::size_t>(request.batch, windows.size()), request.window);
     Recogniser recogniser(device, weights, tiles_for(device, request.batch));
-    FeaturesFile out(request.out, windows.size(), weights.features(), weights.classes);
+    const std::uint32_t classes = request.persons_apart ? 0 : weights.classes;
+    const auto persons = request.persons_apart ? dataset.header().persons : 1;
+    FeaturesFile out(request.out, windows.size(), weights.features(), classes);
     Hits hits;
     for (std::size_t first = 0; first < windows.size(); first += batch.filled()) {
         cutter.cut(first, batch);
-        const auto got = recogniser.recognise(batch.values(), batch.filled(), request.window);
+        const auto got =
+            grouped(recogniser.recognise(batch.values(), batch.filled() * persons, request.window), request,
+                    weights, persons);
         out.add(first, got.features, got.logits);
-        for (std::size_t i = 0; i < batch.filled(); ++i)
-            hits.add(std::span(got.logits).subspan(i * weights.classes, weights.classes),
+        for (std::size_t i = 0; i < batch.filled() && classes > 0; ++i)
+            hits.add(std::span(got.logits).subspan(i * classes, classes),
                      view.store.table().labels[windows[first + i].clip]);
         if (tell) tell(first + batch.filled(), windows.size());
     }
@@ -180,11 +223,12 @@ FeaturesSummary features_of_dataset(const FeaturesRequest& request, const Weight
     }
     out.names(names);
     out.labels(labels);
+    out.frames(request.window, request.window);
     note_origin(out, request);
     out.note("input", dataset.fingerprint());
     out.note("view", fmt::format("split {}, windows of {} frames", request.split, request.window));
     out.finish();
-    return {windows.size(), weights.classes, weights.features(), true, hits.rate()};
+    return {windows.size(), classes, weights.features(), true, hits.rate()};
 }
 
 }  // namespace
@@ -202,13 +246,17 @@ std::optional<std::uint32_t> label_in(const std::string& name) {
     return action - 1;  // A001_7
 }
 
-void check_fits(const Weights& weights, const ingest::Dataset& dataset) {
+void check_fits(const Weights& weights, const ingest::Dataset& dataset, bool persons_apart) {
     const auto& header = dataset.header();
     const auto where = dataset.folder().string();
-    if (header.persons * 3 != weights.channels)
+    const auto persons = persons_apart ? 1 : header.persons;
+    if (persons_apart && weights.channels != 3)
+        throw Error("{}: takes {} persons; the one that sees the persons of {} alone must take one",
+                    weights.source, weights.channels / 3, where);
+    if (persons * 3 != weights.channels)
         throw Error(
             "{}: has {} persons a clip and the recogniser {} takes {}; choose one trained on such a dataset",
-            where, header.persons, weights.source, weights.channels / 3);
+            where, persons, weights.source, weights.channels / 3);
     if (header.topology.joints() != weights.joints())
         throw Error("{}: has {} joints and the recogniser {} takes {}; choose one trained on such a dataset",
                     where, header.topology.joints(), weights.source, weights.joints());
@@ -218,9 +266,13 @@ void check_fits(const Weights& weights, const ingest::Dataset& dataset) {
             "{}: its skeleton is another tree than that of the recogniser {}; choose one trained on such a "
             "dataset",
             where, weights.source);
-    if (header.classes.size() != weights.classes)
+    if (!persons_apart && header.classes.size() != weights.classes)
         throw Error("{}: has {} classes and the recogniser {} knows {}; choose one trained on such a dataset",
                     where, header.classes.size(), weights.source, weights.classes);
+}
+
+bool check_motions(const FeaturesRequest& request, const Weights& weights) {
+    return !list_motions(ingest::hdf5::Reader(request.input), request, weights).labels.empty();
 }
 
 FeaturesSummary make_features(const FeaturesRequest& request, kernels::Device& device, const Tell& tell) {

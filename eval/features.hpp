@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,13 @@ struct FeaturesRequest {
     std::uint32_t batch = 64;   ///< sequences handed to the device together
     std::uint32_t window = 60;  ///< datasets: frames of a window
     std::string split = "all";  ///< datasets
+
+    /// A one-person recogniser on groups: it sees every person alone, and a group's features are the largest of its persons'
+    /// in every channel. Its classes are others than the motions', so there are no logits.
+    bool persons_apart = false;
+
+    /// Motions: labels by name, before what names tell. Where it is not empty every motion must be in it.
+    std::map<std::string, std::uint32_t> labels;
 };
 
 struct FeaturesSummary {
@@ -40,9 +48,13 @@ using Tell = std::function<void(std::uint64_t done, std::uint64_t all)>;
 /// without frames, or not finite; names of actions that the recogniser does not know; an empty split.
 FeaturesSummary make_features(const FeaturesRequest& request, kernels::Device& device, const Tell& tell = {});
 
+/// Throws Error for a motions file that make_features would refuse, short of reading its motions. True where labels are known.
+bool check_motions(const FeaturesRequest& request, const Weights& weights);
+
 /// Throws Error unless the recogniser's weights fit the dataset: persons, joints, classes, and the tree of the skeleton (for
-/// NTU's 25 joints, whose hands the recogniser links otherwise, either tree).
-void check_fits(const Weights& weights, const ingest::Dataset& dataset);
+/// NTU's 25 joints, whose hands the recogniser links otherwise, either tree). A recogniser that sees `persons_apart` must
+/// take one person, and its classes do not matter.
+void check_fits(const Weights& weights, const ingest::Dataset& dataset, bool persons_apart = false);
 
 /// The label that a motion's name tells: 0 for A001_7.
 std::optional<std::uint32_t> label_in(const std::string& name);

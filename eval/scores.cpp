@@ -98,36 +98,43 @@ Confusion confusion_of(const Samples& samples) {
     return confusion;
 }
 
+std::vector<std::optional<Moments>> moments_by_class(const Samples& samples, unsigned threads) {
+    const auto members = by_label(samples);
+    std::vector<std::optional<Moments>> out(members.size());
+    ingest::parallel_for(members.size(), ingest::thread_count(threads), [&](std::size_t c, unsigned) {
+        if (members[c].size() >= 2) out[c] = fit(rows(samples, members[c]), samples.dimensions);
+    });
+    return out;
+}
+
 Statistics statistics_of(const Samples& samples, unsigned threads) {
     Statistics out;
     out.samples = samples.size();
     out.whole = fit(samples.features, samples.dimensions, threads);
-    out.by_class.resize(samples.classes);
-    const auto members = by_label(samples);
-    for (const auto& m : members) out.counts.push_back(m.size());
-    ingest::parallel_for(members.size(), ingest::thread_count(threads), [&](std::size_t c, unsigned) {
-        if (members[c].size() >= 2) out.by_class[c] = fit(rows(samples, members[c]), samples.dimensions);
+    out.by_class = moments_by_class(samples, threads);
+    for (const auto& members : by_label(samples)) out.counts.push_back(members.size());
+    return out;
+}
+
+std::vector<std::optional<double>> distances_by_class(const std::vector<std::optional<Moments>>& real,
+                                                      const std::vector<std::optional<Moments>>& generated,
+                                                      unsigned threads) {
+    if (real.size() != generated.size())
+        throw Error("{} real and {} generated classes cannot be compared", real.size(), generated.size());
+    std::vector<std::optional<double>> out(real.size());
+    ingest::parallel_for(real.size(), ingest::thread_count(threads), [&](std::size_t c, unsigned) {
+        if (real[c] && generated[c]) out[c] = frechet_distance(*real[c], *generated[c]);
     });
     return out;
 }
 
 Distances distances(const Statistics& real, const Statistics& generated, unsigned threads) {
-    const auto classes = real.counts.size();
-    if (generated.counts.size() != classes)
-        throw Error("{} real and {} generated classes cannot be compared", classes, generated.counts.size());
     Distances out;
-    out.by_class.resize(classes);
-    ingest::parallel_for(classes + 1, ingest::thread_count(threads), [&](std::size_t i, unsigned) {
-        if (i == 0) {  // the longest goes first
-            out.whole = frechet_distance(real.whole, generated.whole);
-            return;
-        }
-        const auto &r = real.by_class[i - 1], &g = generated.by_class[i - 1];
-        if (r && g) out.by_class[i - 1] = frechet_distance(*r, *g);
-    });
+    out.by_class = distances_by_class(real.by_class, generated.by_class, threads);
+    out.whole = frechet_distance(real.whole, generated.whole);
     double sum = 0;
     std::size_t measured = 0;
-    for (std::size_t c = 0; c < classes; ++c)
+    for (std::size_t c = 0; c < out.by_class.size(); ++c)
         if (out.by_class[c]) {
             sum += *out.by_class[c];
             ++measured;
@@ -138,10 +145,10 @@ Distances distances(const Statistics& real, const Statistics& generated, unsigne
     return out;
 }
 
-std::vector<double> largest_of_group(std::span<const float> features, std::size_t dimensions,
-                                     std::size_t persons) {
+std::vector<float> largest_of_group(std::span<const float> features, std::size_t dimensions,
+                                    std::size_t persons) {
     const auto groups = features.size() / (dimensions * persons);
-    std::vector<double> out(groups * dimensions);
+    std::vector<float> out(groups * dimensions);
     for (std::size_t g = 0; g < groups; ++g)
         for (std::size_t c = 0; c < dimensions; ++c) {
             float largest = features[g * persons * dimensions + c];

@@ -38,7 +38,10 @@ struct Statistics {
     std::vector<std::optional<Moments>> by_class;  ///< (classes) where there are two samples or more
 };
 
-/// `threads` 0: one a core; the numbers are the same on any. Throws Error for fewer than two samples in all.
+/// Of each class with two samples or more. `threads` 0: one a core; the numbers are the same on any.
+std::vector<std::optional<Moments>> moments_by_class(const Samples& samples, unsigned threads = 0);
+
+/// Of all and of each class. Throws Error for fewer than two samples in all.
 Statistics statistics_of(const Samples& samples, unsigned threads = 0);
 
 /// A class with fewer than two samples on a side: it has no distance.
@@ -53,13 +56,18 @@ struct Distances {
     std::vector<LeftOut> left_out;
 };
 
+/// Of each class that has moments on both sides. Throws Error where classes or dimensions differ.
+std::vector<std::optional<double>> distances_by_class(const std::vector<std::optional<Moments>>& real,
+                                                      const std::vector<std::optional<Moments>>& generated,
+                                                      unsigned threads = 0);
+
 /// Throws Error where classes or dimensions differ.
 Distances distances(const Statistics& real, const Statistics& generated, unsigned threads = 0);
 
 /// One sample a group from the features of its persons (groups * persons, dimensions): the largest value of every channel.
 /// FIDa_w and FIDa_m are the distances of such samples, the features being a one-person recogniser's.
-std::vector<double> largest_of_group(std::span<const float> features, std::size_t dimensions,
-                                     std::size_t persons);
+std::vector<float> largest_of_group(std::span<const float> features, std::size_t dimensions,
+                                    std::size_t persons);
 
 /// Mean Euclidean distance of `pairs` random pairs of samples, a sample never paired with itself. The same seed draws the same
 /// pairs. None for fewer than two samples.

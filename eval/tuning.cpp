@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "eval/cache.hpp"
 #include "eval/recogniser.hpp"
 #include "ingest/file.hpp"
 #include "kernels/error.hpp"
@@ -74,10 +74,7 @@ std::vector<Tiles> vary(const Tiles& from, std::uint32_t Tiles::*size,
 }  // namespace
 
 std::filesystem::path tiles_file() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    if (cache && *cache) return std::filesystem::path(cache) / "actformer" / "tiles.json";
-    const char* home = std::getenv("HOME");
-    return std::filesystem::path(home ? home : ".") / ".cache" / "actformer" / "tiles.json";
+    return cache_folder() / "tiles.json";
 }
 
 Tiles load_tiles(const kernels::DeviceInfo& device) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "ingest/aside.hpp"
 #include "ingest/hdf5.hpp"
 #include "kernels/error.hpp"
 
@@ -130,14 +131,15 @@ Weights read_weights(const std::filesystem::path& file_path) {
 }
 
 void write_weights(const std::filesystem::path& path, const Weights& weights) {
-    ingest::hdf5::Writer file(path);
+    ingest::Aside aside(path);
+    ingest::hdf5::Writer file(aside.partial());
     for (const auto& [name, shape] : tensor_shapes(weights))
         file.write<float>(name, ingest::hdf5::Shape(shape.begin(), shape.end()), weights.at(name));
     file.attribute("channels", std::int64_t{weights.channels});
     file.attribute("classes", std::int64_t{weights.classes});
     file.attribute("parents", std::vector<std::int64_t>(weights.parents.begin(), weights.parents.end()));
     file.attribute("center", std::int64_t{weights.center});
-    if (!file.finish()) throw Error("{}: cannot be written; is there space left?", path.string());
+    aside.commit(file.finish());
 }
 
 Weights random_weights(std::uint32_t channels, std::uint32_t classes, const std::vector<int>& parents,
@@ -166,6 +168,12 @@ Weights random_weights(std::uint32_t channels, std::uint32_t classes, const std:
         weights.tensors[name] = std::move(values);
     }
     return weights;
+}
+
+std::filesystem::path weights_of(const std::filesystem::path& recogniser) {
+    if (!std::filesystem::is_directory(recogniser)) return recogniser;
+    const auto best = recogniser / "weights-best.h5";
+    return std::filesystem::exists(best) ? best : recogniser / "weights-last.h5";
 }
 
 const std::vector<int> ntu_edges{-1, 0,  20, 2, 20, 4,  5,  6, 20, 8, 9,  10, 0,

@@ -46,6 +46,10 @@ std::map<std::string, std::vector<std::uint64_t>> tensor_shapes(const Weights& w
 /// finite, or no variance; for parents that are no tree, and a centre outside it.
 Weights read_weights(const std::filesystem::path& path);
 
+/// The weights that `recogniser` stands for: of a training's folder the best ones, or the last where none was scored; a file
+/// stands for itself.
+std::filesystem::path weights_of(const std::filesystem::path& recogniser);
+
 /// Throws Error where the file cannot be written.
 void write_weights(const std::filesystem::path& path, const Weights& weights);
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <utility>
 
+#include "ingest/aside.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest {
@@ -109,16 +110,12 @@ void read_in_pieces(const std::filesystem::path& path, const std::function<void(
 }
 
 void write_whole(const std::filesystem::path& path, std::string_view bytes) {
-    auto aside = path;
-    aside += ".partial";
-    Descriptor file(aside, O_WRONLY | O_CREAT | O_TRUNC);
+    Aside aside(path);
+    Descriptor file(aside.partial(), O_WRONLY);
     if (file.get() >= 0) write_blocks_directly(file.get(), bytes);
-    if (file.get() >= 0 && write_fully(file.get(), bytes) && file.close() &&
-        ::rename(aside.c_str(), path.c_str()) == 0)
-        return;
-    const auto why = reason();
-    ::unlink(aside.c_str());
-    throw Error("{}: cannot be written: {}", path.string(), why);
+    if (file.get() < 0 || !write_fully(file.get(), bytes) || !file.close())
+        throw Error("{}: cannot be written: {}", path.string(), reason());
+    aside.commit();
 }
 
 }  // namespace actformer::ingest

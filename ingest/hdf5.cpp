@@ -153,8 +153,8 @@ std::vector<float> Reader::read_rows(const std::string& name, std::uint64_t firs
 std::vector<std::string> Reader::read_strings(const std::string& name) const {
     const auto set = open(name);
     const Handle stored(H5Dget_type(set.get()), H5Tclose);
-    if (H5Tget_class(stored.get()) != H5T_STRING || H5Tis_variable_str(stored.get()) != 0)
-        throw Error("{}: '{}' holds no fixed-length strings", path_.string(), name);
+    if (H5Tget_class(stored.get()) != H5T_STRING) throw Error("{}: '{}' holds no text", path_.string(), name);
+    if (H5Tis_variable_str(stored.get()) > 0) return read_variable_strings(set, stored, name);
     const auto count = elements(shape(name)), size = H5Tget_size(stored.get());
     std::vector<char> text(count * size);
     if (H5Dread(set.get(), stored.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
@@ -185,6 +185,18 @@ Reader::Attribute Reader::open_attribute(const std::string& name, H5T_class_t ki
     attribute.count =
         static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0));
     return attribute;
+}
+
+std::vector<std::string> Reader::read_variable_strings(const Handle& set, const Handle& type,
+                                                       const std::string& name) const {
+    std::vector<char*> texts(elements(shape(name)), nullptr);
+    if (H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()) < 0)
+        throw Error("{}: '{}' cannot be read: damaged", path_.string(), name);
+    std::vector<std::string> values;
+    for (const char* text : texts) values.emplace_back(text ? text : "");
+    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, texts.data());
+    return values;
 }
 
 std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {

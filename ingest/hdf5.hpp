@@ -43,6 +43,15 @@ inline hid_t type_of<std::uint64_t>() {
     return H5T_NATIVE_UINT64;
 }
 
+template <>
+inline hid_t type_of<std::int64_t>() {
+    return H5T_NATIVE_INT64;
+}
+template <>
+inline hid_t type_of<double>() {
+    return H5T_NATIVE_DOUBLE;
+}
+
 using Shape = std::vector<hsize_t>;
 
 /// A file to read. Every member throws Error, naming the file, for what is missing, of another shape, or damaged.
@@ -66,6 +75,7 @@ class Reader {
     /// `count` entries along the first axis, from `first` on.
     std::vector<float> read_rows(const std::string& name, std::uint64_t first, std::uint64_t count) const;
 
+    /// Of fixed or variable length.
     std::vector<std::string> read_strings(const std::string& name) const;
 
     bool has_attribute(const std::string& name) const;
@@ -81,6 +91,8 @@ class Reader {
     static std::size_t elements(const Shape& shape);
     Handle open(const std::string& name) const;
     void read_into(const std::string& name, hid_t type, void* to) const;
+    std::vector<std::string> read_variable_strings(const Handle& set, const Handle& type,
+                                                   const std::string& name) const;
 
     std::filesystem::path path_;
     Handle file_;

@@ -1,6 +1,6 @@
 #include "ingest/motions_file.hpp"
 
-#include "ingest/file.hpp"
+#include "ingest/aside.hpp"
 #include "ingest/hdf5.hpp"
 #include "kernels/error.hpp"
 
@@ -42,17 +42,12 @@ Motion MotionsFile::read(const std::string& name) const {
 }
 
 struct MotionsWriter::Handle {
-    explicit Handle(std::filesystem::path path) : aside(std::move(path)), writer(aside) {}
-    ~Handle() {
-        std::error_code gone;
-        std::filesystem::remove(aside, gone);
-    }
-    std::filesystem::path aside;
+    explicit Handle(const std::filesystem::path& path) : aside(path), writer(aside.partial()) {}
+    Aside aside;
     hdf5::Writer writer;
 };
 
-MotionsWriter::MotionsWriter(const std::filesystem::path& path)
-    : path_(path), file_(new Handle(path.string() + ".partial")) {}
+MotionsWriter::MotionsWriter(const std::filesystem::path& path) : file_(new Handle(path)) {}
 MotionsWriter::~MotionsWriter() = default;
 
 void MotionsWriter::add(const std::string& name, const Motion& motion) {
@@ -74,12 +69,7 @@ void MotionsWriter::note(const std::string& attribute, const std::string& text) 
 }
 
 void MotionsWriter::finish() {
-    std::error_code error;
-    if (file_->writer.finish())
-        std::filesystem::rename(file_->aside, path_, error);
-    else
-        error = std::make_error_code(std::errc::no_space_on_device);
-    if (error) throw Error("{}: cannot be written: {}", path_.string(), error.message());
+    file_->aside.commit(file_->writer.finish());
 }
 
 }  // namespace actformer::ingest

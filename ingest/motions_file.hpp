@@ -47,7 +47,6 @@ class MotionsWriter {
 
   private:
     struct Handle;
-    std::filesystem::path path_;
     std::unique_ptr<Handle> file_;
 };
 

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "ingest/aside.hpp"
 #include "kernels/error.hpp"
 #include "reports/palette.hpp"
 
@@ -137,7 +138,7 @@ cv::Rect changed(const cv::Mat& before, const cv::Mat& now) {
 
 void write_gif(const std::filesystem::path& path, const Film& whole, const Watcher& watch) {
     const auto film = slow_enough(whole);
-    Aside file(path);
+    ingest::Aside file(path);
     Palette palette(colours_of(film));
     Encoder encoder(file.partial(), path.string(), film.size, palette.colours());
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "ingest/aside.hpp"
 #include "kernels/error.hpp"
 #include "reports/gif.hpp"
 #include "reports/video.hpp"
@@ -23,7 +24,7 @@ PictureKind picture_kind(const std::filesystem::path& path) {
 }
 
 void write_png(const std::filesystem::path& path, const cv::Mat& picture) {
-    Aside file(path);
+    ingest::Aside file(path);
     std::vector<std::uint8_t> bytes;
     if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9}))
         throw Error("cannot write {}: OpenCV was built without PNG; install libopencv-dev", path.string());

@@ -4,6 +4,7 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "ingest/aside.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::reports {
@@ -40,7 +41,7 @@ std::size_t frames_in(const std::filesystem::path& path) {
 
 void write_mp4(const std::filesystem::path& path, const Film& film, const Watcher& watch) {
     silence_libraries();
-    Aside file(path);
+    ingest::Aside file(path, path.extension().string());
     auto writer = open(file.partial(), film);
     if (!writer.isOpened())
         throw Error(

@@ -26,7 +26,7 @@ static_assert(std::endian::native == std::endian::little,
 inline constexpr double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                            1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                            1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-inline constexpr std::uint64_t whole_powers_of_ten[16] = {1,      10,      100,      1000,     10000,
+inline constexpr std::uint32_t whole_powers_of_ten[16] = {1,      10,      100,      1000,     10000,
                                                           100000, 1000000, 10000000, 100000000};
 
 /// Appends the digits at `p` to `mantissa` (modulo 2^64), eight at a time, and returns where they end.

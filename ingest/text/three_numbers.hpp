@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include "ingest/text/number.hpp"
+
 #if defined(__AVX512VBMI2__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && \
     defined(__BMI2__)
 #include <immintrin.h>
@@ -28,8 +30,6 @@ namespace detail {
 /// A product with one of these sets the point and the sign: [minus][digits behind the point].
 inline constexpr double scales[2][16] = {{1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8},
                                          {-1, -1e-1, -1e-2, -1e-3, -1e-4, -1e-5, -1e-6, -1e-7, -1e-8}};
-inline constexpr std::uint32_t plain_powers_of_ten[16] = {1,      10,      100,      1000,     10000,
-                                                          100000, 1000000, 10000000, 100000000};
 
 /// One to eight digits behind the point, in `length` characters. Returns nonzero, and any value, for another number:
 /// what speed there is comes of having no branch here. Needs 10 readable bytes.
@@ -49,7 +49,7 @@ inline std::uint64_t read_plain_number(const char* p, int length, double& value)
     digits = (digits * (1 + (10ULL << 8)) >> 8) & 0x00FF00FF00FF00FF;
     digits = (digits * (1 + (100ULL << 16)) >> 16) & 0x0000FFFF0000FFFF;
     digits = digits * (1 + (10000ULL << 32)) >> 32;
-    const auto whole = std::uint64_t{lead} * plain_powers_of_ten[places & 15] + digits;
+    const auto whole = std::uint64_t{lead} * whole_powers_of_ten[places & 15] + digits;
     value = static_cast<double>(static_cast<std::int64_t>(whole)) * scales[minus][places & 15];
     return odd;
 }

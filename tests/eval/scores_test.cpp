@@ -118,8 +118,8 @@ TEST(Scores, AccuracyIsTheMeanOverTheClassesThatHaveSamples) {
 
 TEST(Scores, GroupsAreTheirPersonsLargestFeatures) {
     const std::vector<float> features{1, -2, 3, -4, 0, -1, 5, 5, 4, 6, 6, 4};
-    EXPECT_EQ(eval::largest_of_group(features, 2, 3), (std::vector<double>{3, -1, 6, 6}));
-    EXPECT_EQ(eval::largest_of_group(features, 4, 1), std::vector<double>(features.begin(), features.end()));
+    EXPECT_EQ(eval::largest_of_group(features, 2, 3), (std::vector<float>{3, -1, 6, 6}));
+    EXPECT_EQ(eval::largest_of_group(features, 4, 1), features);
 }
 
 TEST(Scores, DiversityIsTheMeanDistanceOfPairs) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "kernels/error.hpp"
+#include "model/actformer/gan_settings.hpp"
 #include "model/actformer/layers.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"

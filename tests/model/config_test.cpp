@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/error.hpp"
+#include "model/actformer/gan_settings.hpp"
 #include "model/recogniser_settings.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -106,11 +107,12 @@ TEST_F(Configs, WritesWhatItReads) {
 TEST(ShippedConfigs, AllLoad) {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(ACTFORMER_SOURCE "/model/configs")) {
-        auto config = recogniser_config();
+        const bool recogniser = entry.path().filename().string().starts_with("recogniser-");
+        auto config = recogniser ? recogniser_config() : generator_config();
         config.load(entry.path());
         ++count;
     }
-    EXPECT_GE(count, 4U);
+    EXPECT_GE(count, 8U);
 }
 
 TEST(NearestWord, CountsSwapsAndParts) {

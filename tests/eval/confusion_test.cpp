@@ -1,11 +1,11 @@
 // Which class was taken for which: accuracies by hand, and what a reader sees of few and of many classes.
-#include "model/confusion.hpp"
+#include "eval/confusion.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-using actformer::model::Confusion;
+using actformer::eval::Confusion;
 
 namespace {
 

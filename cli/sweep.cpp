@@ -1,0 +1,200 @@
+// actformer sweep: everything that a set of tables needs, trained and scored.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/format.hpp"
+#include "cli/progress.hpp"
+#include "ingest/text/printable.hpp"
+#include "kernels/error.hpp"
+#include "reports/sweep/process.hpp"
+#include "reports/sweep/run.hpp"
+
+namespace actformer::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using reports::JobState;
+
+struct Options {
+    fs::path file, out;
+    std::string program, only;
+    unsigned jobs = 1;
+    std::vector<std::string> sbatch;
+    bool dry_run = false, status = false, slurm = false, json = false;
+};
+
+std::string plain(const std::string& text) {
+    return ingest::printable(text);
+}
+
+const char* name_of(JobState state) {
+    switch (state) {
+        case JobState::done:
+            return "done";
+        case JobState::failed:
+            return "failed";
+        case JobState::running:
+            return "running";
+        default:
+            return "to do";
+    }
+}
+
+void print_commands(const reports::Job& job, const Options& options) {
+    for (const auto& words : job.commands)
+        fmt::print(
+            "      {}\n",
+            plain(reports::command_line(reports::filled_in(words, options.program, options.out, job))));
+}
+
+/// Every job, what it may cost, and with a dry run its commands.
+void print_plan(const reports::Plan& plan, const Options& options) {
+    const auto status = reports::statuses(plan, options.out);
+    double sum = 0;
+    std::size_t unknown = 0, open = 0;
+    for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+        const auto& job = plan.jobs[i];
+        const auto& s = status[i];
+        std::string cost = "time unknown";
+        if (s.state == JobState::done) {
+            cost = s.seconds ? "took " + duration(*s.seconds) : "";
+        } else if (s.state == JobState::failed) {
+            ++open;
+            cost = "cannot be done";
+            if (job.problem.empty()) cost = "failed";
+        } else {
+            ++open;
+            const auto seconds = reports::estimate(plan, status, i);
+            if (seconds) cost = "about " + duration(*seconds), sum += *seconds;
+            if (!seconds) ++unknown;
+        }
+        fmt::print("{:<8} {:<24} {}  {}{}\n", name_of(s.state), job.id, plain(job.title), cost,
+                   s.state == JobState::failed ? ": " + plain(s.why) : "");
+        if (options.dry_run && s.state != JobState::done && s.state != JobState::failed)
+            print_commands(job, options);
+    }
+    fmt::print("{} of {} to do", open, counted(plan.jobs.size(), "job"));
+    if (sum > 0) fmt::print(", about {} of work one after another", duration(sum));
+    if (unknown > 0 && open > 0) fmt::print("; {} of unknown length", unknown);
+    fmt::print("\n");
+}
+
+/// Rows that failed, each with its reason once. The number of them.
+std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, const Options& options) {
+    const auto results = reports::results(sweep, plan, options.out);
+    std::size_t done = 0, failed = 0;
+    for (const auto& row : results["rows"]) {
+        done += row["status"] == "done";
+        if (row["status"] != "failed") continue;
+        ++failed;
+        fmt::print("failed: {}: {}\n", plain(row["name"].get<std::string>()),
+                   plain(row["why"].get<std::string>()));
+    }
+    fmt::print("{} of {} done; {}\n", done, counted(results["rows"].size(), "row"),
+               (options.out / "results.json").string());
+    return failed;
+}
+
+/// This command again, for Slurm's jobs, which may land on other machines with the same file system.
+std::vector<std::string> again(const Options& options) {
+    return {(reports::program_folder() / "actformer").string(),
+            "sweep",
+            fs::absolute(options.file).string(),
+            "-o",
+            fs::absolute(options.out).string(),
+            "--program",
+            options.program};
+}
+
+void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Options& options) {
+    std::size_t done = 0;
+    reports::SweepEvents events;
+    events.begins = [&](const reports::Job& job) {
+        fmt::print(stderr, "begins: {} ({})\n", plain(job.title), job.id);
+    };
+    events.ends = [&](const reports::Job& job, const reports::JobStatus& status) {
+        ++done;
+        if (status.state == JobState::done)
+            fmt::print(stderr, "done:   {}{}\n", plain(job.title),
+                       status.seconds ? ", " + duration(*status.seconds) : "");
+        else
+            fmt::print(stderr, "failed: {}: {}; see {}\n", plain(job.title), plain(status.why),
+                       (reports::folder_of(options.out, job) / "log.txt").string());
+    };
+    const auto status = reports::run_plan(sweep, plan, {options.out, options.program, options.jobs}, events);
+    if (options.json)
+        fmt::print("{}\n", reports::results(sweep, plan, options.out).dump(2));
+    else
+        print_rows(sweep, plan, options);
+    const auto failed = std::count_if(status.begin(), status.end(),
+                                      [](const auto& s) { return s.state == JobState::failed; });
+    if (failed > 0)
+        throw Error(
+            "{}: {} of {} failed or could not begin; the rest is done, and the same command tries them again",
+            options.file.string(), failed, counted(plan.jobs.size(), "job"));
+}
+
+void run(Options options) {
+    if (options.program.empty()) options.program = (reports::program_folder() / "actformer").string();
+    options.out = fs::absolute(options.out).lexically_normal();
+    const auto sweep = reports::read_sweep(options.file);
+    const auto plan = reports::make_plan(sweep, options.file.parent_path());
+    if (!options.only.empty()) {
+        const auto status = reports::run_one(sweep, plan, options.only, {options.out, options.program, 1});
+        if (status.state != JobState::done) throw Error("{}: {}", options.only, status.why);
+        return;
+    }
+    if (options.slurm && !options.dry_run) {
+        const auto count = reports::submit_plan(sweep, plan, {options.out, options.program, 1},
+                                                again(options), options.sbatch);
+        fmt::print("{} submitted; follow them with actformer sweep {} -o {} --status\n",
+                   counted(count, "job"), options.file.string(), options.out.string());
+        return;
+    }
+    if (options.dry_run || options.status) {
+        if (options.status && fs::exists(options.out)) reports::write_results(sweep, plan, options.out);
+        if (options.json)
+            fmt::print("{}\n", reports::results(sweep, plan, options.out).dump(2));
+        else
+            print_plan(plan, options);
+        if (options.status && !options.json) print_rows(sweep, plan, options);
+        return;
+    }
+    run_here(sweep, plan, options);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    auto* command = app.add_subcommand("sweep", "Train and score everything that a set of tables needs");
+    command->add_option("sweep", options->file, "Datasets, recognisers and rows, as in reports/sweeps")
+        ->required()
+        ->type_name("SWEEP.yaml");
+    command->add_option("-o,--out", options->out, "Folder of all it makes")->required()->type_name("DIR");
+    command->add_option("--jobs", options->jobs, "Jobs at once")
+        ->check(CLI::Range(1, 1024))
+        ->capture_default_str();
+    command->add_flag("--dry-run", options->dry_run, "Print the jobs, their commands and what they may cost");
+    command->add_flag("--status", options->status, "Print how far it is, here or on Slurm");
+    auto* slurm = command->add_flag("--slurm", options->slurm, "Submit the jobs through sbatch");
+    command->add_option("--sbatch", options->sbatch, "A word for every sbatch, as in --sbatch=--gres=gpu:1")
+        ->needs(slurm)
+        ->type_name("WORD");
+    command->add_option("--only", options->only, "One job, whose needs are done")->type_name("JOB");
+    command->add_option("--program", options->program, "The actformer that works (default: this one)")
+        ->type_name("PROGRAM");
+    command->add_flag("--json", options->json, "Print the results as JSON");
+    examples(command,
+             "  actformer sweep reports/sweeps/mini.yaml -o mini --dry-run\n"
+             "  actformer sweep reports/sweeps/mini.yaml -o mini --jobs 2\n"
+             "  actformer sweep reports/sweeps/table3.yaml -o tables --slurm --sbatch=--gres=gpu:1\n"
+             "Interrupted, the same command goes on where it was. A row that fails stops no other.\n");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace actformer::cli

@@ -1,0 +1,23 @@
+// The mean of repeated measurements and how far it may be off.
+#pragma once
+
+#include <optional>
+#include <span>
+
+namespace actformer::eval {
+
+/// mean +- half_width is the 95 % confidence interval t s / sqrt(n), with s the standard deviation over n - 1 and t the
+/// quantile of Student's distribution with n - 1 degrees of freedom: 2.093 for 20 repeats where papers often take the
+/// normal distribution's 1.96, 4.303 for 3.
+struct Interval {
+    double mean = 0;
+    std::optional<double> half_width;  ///< none for a single measurement
+};
+
+/// Of at least one value.
+Interval interval(std::span<const double> values);
+
+/// t with P(|T| <= t) = 0.95 for `degrees` degrees of freedom, at least 1.
+double student_95(std::size_t degrees);
+
+}  // namespace actformer::eval

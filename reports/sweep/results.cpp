@@ -1,0 +1,150 @@
+#include "reports/sweep/results.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "ingest/file.hpp"
+#include "kernels/error.hpp"
+
+namespace actformer::reports {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json read_json(const fs::path& path) {
+    std::ifstream file(path);
+    auto json = Json::parse(file, nullptr, false);
+    return json.is_object() ? json : Json::object();
+}
+
+/// Whether some process works on the job: it holds the lock then.
+bool is_locked(const fs::path& lock) {
+    const int file = ::open(lock.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return false;
+    const bool locked = ::flock(file, LOCK_SH | LOCK_NB) != 0;
+    ::close(file);
+    return locked;
+}
+
+JobStatus status_of(const fs::path& folder) {
+    JobStatus out;
+    if (fs::exists(folder / "done.json")) {
+        out.state = JobState::done;
+        const auto json = read_json(folder / "done.json");
+        if (json.contains("seconds") && json["seconds"].is_number()) out.seconds = json["seconds"];
+    } else if (is_locked(folder / "lock")) {
+        out.state = JobState::running;
+    } else if (fs::exists(folder / "failed.json")) {
+        out.state = JobState::failed;
+        const auto json = read_json(folder / "failed.json");
+        out.why = json.contains("why") && json["why"].is_string() ? json["why"].get<std::string>() : "?";
+    }
+    return out;
+}
+
+/// Paths in the sweep's folder without it.
+std::string shown(std::string path) {
+    const std::string out = "{out}/";
+    return path.starts_with(out) ? path.substr(out.size()) : path;
+}
+
+const char* name_of(JobState state) {
+    switch (state) {
+        case JobState::done:
+            return "done";
+        case JobState::failed:
+            return "failed";
+        case JobState::running:
+            return "running";
+        default:
+            return "waiting";
+    }
+}
+
+Json run_json(const PlannedRun& run, const JobStatus& status) {
+    Json out{{"seed", run.seed}, {"status", name_of(status.state)}};
+    if (!status.why.empty()) out["why"] = status.why;
+    for (const auto& [key, path] : {std::pair{"scores", run.scores},
+                                    {"features", run.features},
+                                    {"motions", run.motions},
+                                    {"run", run.run},
+                                    {"recogniser", run.recogniser},
+                                    {"dataset", run.dataset}})
+        if (!path.empty()) out[key] = shown(path);
+    return out;
+}
+
+}  // namespace
+
+fs::path folder_of(const fs::path& out, const Job& job) {
+    return out / "jobs" / job.id;
+}
+
+std::vector<JobStatus> statuses(const Plan& plan, const fs::path& out) {
+    std::vector<JobStatus> all;
+    for (const auto& job : plan.jobs) {
+        auto status = status_of(folder_of(out, job));
+        if (!job.problem.empty()) status = {JobState::failed, job.problem, {}};
+        for (const auto need : job.needs)
+            if (status.state == JobState::waiting && all[need].state == JobState::failed)
+                status = {JobState::failed, fmt::format("{}: {}", plan.jobs[need].title, all[need].why), {}};
+        all.push_back(std::move(status));
+    }
+    return all;
+}
+
+nlohmann::ordered_json results(const Sweep& sweep, const Plan& plan, const fs::path& out) {
+    const auto status = statuses(plan, out);
+    Json json{{"format", 1}, {"sweep", sweep.name}, {"version", ACTFORMER_VERSION}, {"rows", Json::array()}};
+    for (const auto& planned : plan.rows) {
+        const auto& row = *planned.row;
+        Json runs = Json::array();
+        bool any_failed = false, all_done = true;
+        std::string why;
+        for (const auto& run : planned.runs) {
+            const auto& s = status[run.score];
+            all_done = all_done && s.state == JobState::done;
+            if (s.state == JobState::failed && !any_failed) any_failed = true, why = s.why;
+            runs.push_back(run_json(run, s));
+        }
+        Json one{{"name", row.name}, {"status", any_failed ? "failed" : all_done ? "done" : "waiting"}};
+        if (any_failed) one["why"] = why;
+        one["fills"] = row.fills;
+        one["dataset"] = row.data;
+        one["split"] = row.split;
+        one["settings"] = row.set;
+        one["runs"] = runs;
+        json["rows"].push_back(one);
+    }
+    return json;
+}
+
+void write_results(const Sweep& sweep, const Plan& plan, const fs::path& out) {
+    const int lock = ::open((out / "results.lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
+    if (lock >= 0) ::flock(lock, LOCK_EX);
+    const auto text = results(sweep, plan, out).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    ingest::write_whole(out / "results.json", text);
+    if (lock >= 0) ::close(lock);
+}
+
+std::optional<double> estimate(const Plan& plan, const std::vector<JobStatus>& status, std::size_t job) {
+    const auto& asked = plan.jobs[job];
+    double seconds = 0, work = 0;
+    std::size_t jobs = 0;
+    for (std::size_t i = 0; i < plan.jobs.size(); ++i)
+        if (plan.jobs[i].kind == asked.kind && status[i].seconds) {
+            seconds += *status[i].seconds;
+            work += plan.jobs[i].work;
+            ++jobs;
+        }
+    if (jobs > 0 && work > 0 && asked.work > 0) return seconds / work * asked.work;
+    if (jobs > 0) return seconds / static_cast<double>(jobs);
+    if (asked.kind == "ingest" && asked.work > 0) return 2 + asked.work / 300;  // written as text first
+    return {};
+}
+
+}  // namespace actformer::reports

@@ -1,0 +1,187 @@
+#include "reports/sweep/run.hpp"
+
+#include <chrono>
+#include <condition_variable>
+#include <ctime>
+#include <mutex>
+#include <thread>
+
+#include "eval/cache.hpp"
+#include "ingest/file.hpp"
+#include "kernels/error.hpp"
+#include "reports/sweep/process.hpp"
+
+namespace actformer::reports {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+void write_json(const fs::path& path, const Json& json) {
+    ingest::write_whole(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+std::string now() {
+    const std::time_t time = std::time(nullptr);
+    std::tm parts{};
+    gmtime_r(&time, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+    return text;
+}
+
+/// The job's commands one after another; empty, or why one failed.
+std::string run_commands(const Job& job, const SweepOptions& options, const fs::path& folder) {
+    for (const auto& words : job.commands) {
+        const auto command = filled_in(words, options.program, options.out, job);
+        const auto result = run_process(command, folder / "log.txt");
+        if (result.exit != 0)
+            return result.last_line.empty()
+                       ? fmt::format("{}: exit code {}", command_line(command), result.exit)
+                       : result.last_line;
+    }
+    return {};
+}
+
+/// Runs a job that nobody else does or has done.
+void work_on(const Job& job, const SweepOptions& options) {
+    const auto folder = folder_of(options.out, job);
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw Error("{}: cannot be made: {}", folder.string(), error.message());
+    const eval::FileLock lock(folder / "lock");
+    if (fs::exists(folder / "done.json")) return;  // by whom we waited for
+    fs::remove(folder / "failed.json");
+    Json said{{"kind", job.kind}, {"title", job.title}, {"commands", Json::array()}};
+    for (const auto& words : job.commands)
+        said["commands"].push_back(command_line(filled_in(words, options.program, options.out, job)));
+    write_json(folder / "job.json", said);
+    const auto start = std::chrono::steady_clock::now();
+    const auto why = run_commands(job, options, folder);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (why.empty())
+        write_json(folder / "done.json", {{"seconds", seconds}, {"finished", now()}});
+    else
+        write_json(folder / "failed.json", {{"why", why}, {"seconds", seconds}, {"finished", now()}});
+}
+
+/// What is to be done, shared by the hands that do it.
+class Board {
+  public:
+    Board(const Sweep& sweep, const Plan& plan, const SweepOptions& options, const SweepEvents& events)
+        : sweep_(sweep), plan_(plan), options_(options), events_(events), taken_(plan.jobs.size(), false) {
+        status_ = statuses(plan, options.out);
+        for (std::size_t i = 0; i < status_.size(); ++i) {
+            auto& s = status_[i];
+            if (s.state != JobState::done && plan.jobs[i].problem.empty()) s = {};  // tried again
+            taken_[i] = s.state != JobState::waiting;
+        }
+        for (std::size_t i = 0; i < status_.size(); ++i)
+            if (status_[i].state == JobState::failed) fail_those_that_need(i);
+    }
+
+    /// Takes jobs until none is left for it.
+    void hand() {
+        for (;;) {
+            std::unique_lock lock(mutex_);
+            std::optional<std::size_t> job;
+            changed_.wait(lock, [&] { return (job = next()) || none_left(); });
+            if (!job) return;
+            taken_[*job] = true;
+            ++running_;
+            if (events_.begins) events_.begins(plan_.jobs[*job]);
+            lock.unlock();
+            auto status = done_by_us(*job);
+            lock.lock();
+            --running_;
+            status_[*job] = std::move(status);
+            if (status_[*job].state == JobState::failed) fail_those_that_need(*job);
+            if (events_.ends) events_.ends(plan_.jobs[*job], status_[*job]);
+            write_results(sweep_, plan_, options_.out);
+            changed_.notify_all();
+        }
+    }
+
+    const std::vector<JobStatus>& status() const { return status_; }
+
+  private:
+    std::optional<std::size_t> next() const {
+        for (std::size_t i = 0; i < taken_.size(); ++i) {
+            if (taken_[i]) continue;
+            bool ready = true;
+            for (const auto need : plan_.jobs[i].needs)
+                ready = ready && status_[need].state == JobState::done;
+            if (ready) return i;
+        }
+        return {};
+    }
+    /// Nothing can become ready any more.
+    bool none_left() const { return running_ == 0 && !next(); }
+
+    JobStatus done_by_us(std::size_t i) {
+        try {
+            work_on(plan_.jobs[i], options_);
+            return statuses(plan_, options_.out)[i];
+        } catch (const std::exception& e) {
+            return {JobState::failed, e.what(), {}};
+        }
+    }
+
+    void fail_those_that_need(std::size_t failed) {
+        for (std::size_t i = failed + 1; i < plan_.jobs.size(); ++i)
+            for (const auto need : plan_.jobs[i].needs)
+                if (need == failed && !taken_[i]) {
+                    taken_[i] = true;
+                    status_[i] = {JobState::failed,
+                                  fmt::format("{}: {}", plan_.jobs[failed].title, status_[failed].why),
+                                  {}};
+                    fail_those_that_need(i);
+                }
+    }
+
+    const Sweep& sweep_;
+    const Plan& plan_;
+    const SweepOptions& options_;
+    const SweepEvents& events_;
+    std::vector<bool> taken_;
+    std::vector<JobStatus> status_;
+    std::size_t running_ = 0;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+};
+
+void make_folder(const fs::path& out) {
+    std::error_code error;
+    fs::create_directories(out, error);
+    if (error) throw Error("{}: cannot be made: {}", out.string(), error.message());
+}
+
+}  // namespace
+
+std::vector<JobStatus> run_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
+                                const SweepEvents& events) {
+    make_folder(options.out);
+    write_results(sweep, plan, options.out);
+    Board board(sweep, plan, options, events);
+    {
+        std::vector<std::jthread> others;
+        for (unsigned i = 1; i < options.jobs; ++i) others.emplace_back([&] { board.hand(); });
+        board.hand();
+    }
+    write_results(sweep, plan, options.out);
+    return board.status();
+}
+
+JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, const SweepOptions& options) {
+    for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+        if (plan.jobs[i].id != id) continue;
+        make_folder(options.out);
+        if (!plan.jobs[i].problem.empty()) return {JobState::failed, plan.jobs[i].problem, {}};
+        work_on(plan.jobs[i], options);
+        write_results(sweep, plan, options.out);
+        return statuses(plan, options.out)[i];
+    }
+    throw Error("there is no job '{}' in this sweep; was its file changed since it was submitted?", id);
+}
+
+}  // namespace actformer::reports

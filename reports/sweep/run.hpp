@@ -1,0 +1,37 @@
+// Running a plan's jobs: here, or one of them, or through Slurm.
+#pragma once
+
+#include <functional>
+
+#include "reports/sweep/results.hpp"
+
+namespace actformer::reports {
+
+struct SweepOptions {
+    std::filesystem::path out;
+    std::string program;  ///< actformer
+    unsigned jobs = 1;    ///< at once
+};
+
+struct SweepEvents {
+    std::function<void(const Job& job)> begins;
+    std::function<void(const Job& job, const JobStatus& status)> ends;
+};
+
+/// Runs what is not done; a job whose needs are done begins as soon as one of `jobs` hands is free. A failed job stops those that
+/// need it and no others, and is tried again by the next call. Several processes may work in one folder: each job is done by
+/// one of them, and the others wait for it. results.json is written before the first job and after each. Returns the
+/// statuses. Throws Error where the folder cannot be written.
+std::vector<JobStatus> run_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
+                                const SweepEvents& events = {});
+
+/// Runs one job, whose needs must be done. For Slurm's jobs. Throws Error for an id that the plan has not.
+JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, const SweepOptions& options);
+
+/// Submits what is not done through sbatch, each job after those it needs; a job is `again` with --only and its id, run where it
+/// lands. Keeps Slurm's numbers in OUT/slurm.json, and leaves alone what is queued there already. Returns how many were
+/// submitted. Throws Error where sbatch cannot be run or refuses.
+std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
+                        const std::vector<std::string>& again, const std::vector<std::string>& sbatch_words);
+
+}  // namespace actformer::reports

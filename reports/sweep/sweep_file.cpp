@@ -1,0 +1,293 @@
+#include "reports/sweep/sweep_file.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <set>
+
+#include "kernels/error.hpp"
+#include "reports/paper_tables.hpp"
+
+namespace actformer::reports {
+namespace {
+
+using Node = YAML::Node;
+
+/// Where a node stands, for messages.
+struct Place {
+    std::string file;
+
+    [[noreturn]] void fail(const Node& node, const std::string& what) const {
+        throw Error("{}: line {}: {}", file, node.Mark().line + 1, what);
+    }
+    void expect_map(const Node& node, const std::string& what) const {
+        if (!node.IsMap()) fail(node, what + " must be a map of keys and values");
+    }
+    template <typename T>
+    T as(const Node& node, const std::string& key, const char* kind) const {
+        try {
+            return node.as<T>();
+        } catch (const YAML::Exception&) {
+            fail(node, fmt::format("'{}' must be {}", key, kind));
+        }
+    }
+};
+
+/// An entry's keys with those of what it is like, each with the node that says it.
+using Entry = std::map<std::string, Node>;
+
+Node joined_settings(const Node& below, const Node& above) {
+    Node out(YAML::NodeType::Map);
+    for (const auto& item : below) out[item.first.Scalar()] = item.second;
+    for (const auto& item : above) out[item.first.Scalar()] = item.second;
+    return out;
+}
+
+void lay_over(Entry& entry, const std::string& key, const Node& value) {
+    const auto found = entry.find(key);
+    if (key == "set" && found != entry.end() && found->second.IsMap() && value.IsMap())
+        found->second = joined_settings(found->second, value);
+    else
+        entry.insert_or_assign(key, value);
+}
+
+/// One section's entries with `like` resolved.
+class Section {
+  public:
+    Section(const Place& place, const Node& node, std::string name, Entry base)
+        : place_(place), node_(node), name_(std::move(name)), base_(std::move(base)) {}
+
+    Entry entry(const std::string& name) {
+        if (std::find(path_.begin(), path_.end(), name) != path_.end()) {
+            std::string circle;
+            for (const auto& step : path_) circle += step + " -> ";
+            place_.fail(node_[name], fmt::format("{}: a circle of like: {}{}", name_, circle, name));
+        }
+        const auto own = node_[name];
+        place_.expect_map(own, fmt::format("{}: '{}'", name_, name));
+        path_.push_back(name);
+        Entry out = base_;
+        if (const auto like = own["like"]) {
+            const auto other = place_.as<std::string>(like, "like", "a name");
+            if (!node_[other])
+                place_.fail(like, fmt::format("{}: there is no '{}' to be like", name_, other));
+            out = entry(other);
+            out.erase("fills");
+        }
+        path_.pop_back();
+        for (const auto& item : own)
+            if (item.first.Scalar() != "like") lay_over(out, item.first.Scalar(), item.second);
+        return out;
+    }
+
+  private:
+    const Place& place_;
+    Node node_;
+    std::string name_;
+    Entry base_;
+    std::vector<std::string> path_;
+};
+
+/// Takes an entry's keys one by one; what is left at the end nobody knows.
+class Taker {
+  public:
+    Taker(const Place& place, Entry entry) : place_(place), entry_(std::move(entry)) {}
+
+    void text(const char* key, std::string& to) {
+        take(key, [&](const Node& n) { to = place_.as<std::string>(n, key, "a text"); });
+    }
+    void number(const char* key, std::uint64_t& to) {
+        take(key, [&](const Node& n) { to = place_.as<std::uint64_t>(n, key, "a whole number"); });
+    }
+    void at_least_one(const char* key, std::uint64_t& to) {
+        take(key, [&](const Node& n) {
+            to = place_.as<std::uint64_t>(n, key, "a whole number");
+            if (to == 0) place_.fail(n, fmt::format("'{}' must be at least 1", key));
+        });
+    }
+    template <typename T>
+    void list(const char* key, std::vector<T>& to, const char* kind) {
+        take(key, [&](const Node& n) {
+            to.clear();
+            if (n.IsScalar()) to.push_back(place_.as<T>(n, key, kind));
+            for (const auto& item : n) to.push_back(place_.as<T>(item, key, kind));
+        });
+    }
+    void settings(const char* key, Settings& to) {
+        take(key, [&](const Node& n) {
+            place_.expect_map(n, fmt::format("'{}'", key));
+            for (const auto& item : n)
+                to[item.first.Scalar()] =
+                    place_.as<std::string>(item.second, item.first.Scalar(), "one value");
+        });
+    }
+    void end(const std::string& of, const std::string& known) {
+        for (const auto& [key, node] : entry_)
+            place_.fail(node, fmt::format("{} has no key '{}'; it takes {}", of, key, known));
+    }
+
+  private:
+    template <typename Use>
+    void take(const char* key, Use use) {
+        const auto found = entry_.find(key);
+        if (found == entry_.end()) return;
+        use(found->second);
+        entry_.erase(found);
+    }
+
+    const Place& place_;
+    Entry entry_;
+};
+
+SweepDataset dataset(const Place& place, const Node& where, const std::string& name, Entry entry) {
+    Taker take(place, std::move(entry));
+    SweepDataset out;
+    take.text("path", out.path);
+    take.text("format", out.format);
+    take.list("raw", out.raw, "paths");
+    take.list("arguments", out.arguments, "words");
+    take.number("clips", out.clips);
+    take.number("seed", out.seed);
+    take.text("actions", out.actions);
+    take.text("use", out.use);
+    take.end("a dataset", "path, format, raw, arguments, clips, seed, actions, use, like");
+    if (!out.path.empty() + !out.raw.empty() + (out.clips > 0) != 1)
+        place.fail(where, fmt::format("dataset '{}' must say one of path, raw and clips", name));
+    if (out.format != "ntu" && out.format != "bvh")
+        place.fail(where, fmt::format("dataset '{}': format is ntu or bvh, not '{}'", name, out.format));
+    return out;
+}
+
+SweepRecogniser recogniser(const Place& place, const Node& where, const std::string& name, Entry entry) {
+    Taker take(place, std::move(entry));
+    SweepRecogniser out;
+    take.text("data", out.data);
+    take.text("config", out.config);
+    take.text("weights", out.weights);
+    take.settings("set", out.set);
+    take.end("a recogniser", "data, config, set, weights, like");
+    if (out.weights.empty() && (out.data.empty() || out.config.empty()))
+        place.fail(where, fmt::format("recogniser '{}' must say data and config, or weights", name));
+    return out;
+}
+
+SweepRow row(const Place& place, const Node& where, const std::string& name, Entry entry) {
+    Taker take(place, std::move(entry));
+    SweepRow out;
+    out.name = name;
+    take.text("data", out.data);
+    take.text("recogniser", out.recogniser);
+    take.text("single_recogniser", out.single_recogniser);
+    take.text("config", out.config);
+    take.list("motions", out.motions, "paths");
+    take.settings("set", out.set);
+    take.list("seeds", out.seeds, "whole numbers");
+    take.at_least_one("repeats", out.repeats);
+    take.at_least_one("per_class", out.per_class);
+    take.at_least_one("window", out.window);
+    take.text("split", out.split);
+    take.text("device", out.device);
+    take.list("fills", out.fills, "cells");
+    take.end("a row",
+             "data, recogniser, single_recogniser, config, motions, set, seeds, repeats, per_class, window, "
+             "split, "
+             "device, fills, like");
+    if (out.data.empty() || out.recogniser.empty())
+        place.fail(where, fmt::format("row '{}' must say data and recogniser", name));
+    if (out.config.empty() && out.motions.empty())
+        place.fail(where, fmt::format("row '{}' must say config, of a generator, or motions", name));
+    if (out.seeds.empty()) place.fail(where, fmt::format("row '{}' has no seeds", name));
+    return out;
+}
+
+Entry entry_of(const Node& node) {
+    Entry out;
+    for (const auto& item : node) out.emplace(item.first.Scalar(), item.second);
+    return out;
+}
+
+/// Calls `use(name, node, entry)` for every entry of a section, in the file's order.
+template <typename Use>
+void each(const Place& place, const Node& root, const std::string& name, const Entry& base, Use use) {
+    const auto node = root[name];
+    if (!node) return;
+    place.expect_map(node, name);
+    Section section(place, node, name, base);
+    std::set<std::string> seen;
+    for (const auto& item : node) {
+        const auto key = item.first.Scalar();
+        if (!seen.insert(key).second) place.fail(item.first, fmt::format("{}: '{}' comes twice", name, key));
+        use(key, item.second, section.entry(key));
+    }
+}
+
+void check_references(const Place& place, const Node& root, const Sweep& sweep) {
+    const auto known = [&](const auto& map, const std::string& name, const Node& where, const char* what) {
+        if (name.empty() || map.contains(name)) return;
+        place.fail(where, fmt::format("there is no {} '{}'", what, name));
+    };
+    for (const auto& [name, r] : sweep.recognisers)
+        known(sweep.datasets, r.data, root["recognisers"][name], "dataset");
+    std::map<std::string, std::string> filled;
+    for (const auto& r : sweep.rows) {
+        const auto where = root["rows"][r.name];
+        known(sweep.datasets, r.data, where, "dataset");
+        known(sweep.recognisers, r.recogniser, where, "recogniser");
+        known(sweep.recognisers, r.single_recogniser, where, "recogniser");
+        for (const auto& cell : r.fills) {
+            try {
+                find_cell(cell);
+            } catch (const Error& e) {
+                place.fail(where, fmt::format("row '{}': {}", r.name, e.what()));
+            }
+            const auto [other, first] = filled.try_emplace(cell, r.name);
+            if (!first)
+                place.fail(where,
+                           fmt::format("cell '{}' is filled by '{}' and '{}'", cell, other->second, r.name));
+        }
+    }
+}
+
+Node load(const std::filesystem::path& file) {
+    try {
+        return YAML::LoadFile(file.string());
+    } catch (const YAML::BadFile&) {
+        throw Error("{}: no such file, or not to be read", file.string());
+    } catch (const YAML::Exception& e) {
+        throw Error("{}: line {}: {}", file.string(), e.mark.line + 1, e.msg);
+    }
+}
+
+}  // namespace
+
+Sweep read_sweep(const std::filesystem::path& file) {
+    const Place place{file.string()};
+    const auto root = load(file);
+    if (!root.IsMap())
+        throw Error("{}: holds no sweep: name, datasets, recognisers, base, rows", file.string());
+    for (const auto& item : root) {
+        const auto key = item.first.Scalar();
+        if (key != "name" && key != "datasets" && key != "recognisers" && key != "base" && key != "rows")
+            place.fail(item.first,
+                       fmt::format(
+                           "a sweep has no key '{}'; it takes name, datasets, recognisers, base, rows", key));
+    }
+    Sweep out;
+    out.name = root["name"] ? place.as<std::string>(root["name"], "name", "a text") : file.stem().string();
+    if (root["base"]) place.expect_map(root["base"], "base");
+    each(place, root, "datasets", {}, [&](const std::string& name, const Node& node, Entry entry) {
+        out.datasets[name] = dataset(place, node, name, std::move(entry));
+    });
+    each(place, root, "recognisers", {}, [&](const std::string& name, const Node& node, Entry entry) {
+        out.recognisers[name] = recogniser(place, node, name, std::move(entry));
+    });
+    const auto base = root["base"] ? entry_of(root["base"]) : Entry{};
+    each(place, root, "rows", base, [&](const std::string& name, const Node& node, Entry entry) {
+        out.rows.push_back(row(place, node, name, std::move(entry)));
+    });
+    if (out.rows.empty()) throw Error("{}: has no rows", file.string());
+    check_references(place, root, out);
+    return out;
+}
+
+}  // namespace actformer::reports

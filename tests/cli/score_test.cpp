@@ -1,0 +1,491 @@
+// `actformer score` as its users meet it, beside the reference program.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "eval/features_file.hpp"
+#include "eval/weights.hpp"
+#include "ingest/dataset.hpp"
+#include "ingest/motions_file.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer;
+using namespace actformer::test;
+using ingest::hdf5::Reader;
+namespace fs = std::filesystem;
+
+namespace {
+
+ingest::Motion made_motion(std::uint32_t frames, std::uint32_t persons, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    ingest::Motion motion{"", frames, persons, 25, {}};
+    motion.values.resize(std::size_t{frames} * persons * 25 * 3);
+    for (auto& v : motion.values) v = normal(random);
+    return motion;
+}
+
+/// Datasets of synthetic clips, made once: ntu-1p of classes 1 to 4, ntu-2p of classes 1 and 2.
+const fs::path& datasets() {
+    static const TempDir dir;
+    static const fs::path folder = [] {
+        run_actformer("synth ntu -o " + (dir / "raw").string() + " --clips 60 --actions 1-4,50-51");
+        run_actformer("ingest ntu " + (dir / "raw").string() + " -o " + (dir / "out").string());
+        return dir / "out";
+    }();
+    return folder;
+}
+
+struct Score : testing::Test {
+    void SetUp() override {
+        one_person_classes = classes_of("ntu-1p");
+        write_weights(dir / "one.h5",
+                      eval::random_weights(3, one_person_classes, eval::ntu_edges, 20, 0.125, 1));
+        write_weights(dir / "two.h5",
+                      eval::random_weights(6, classes_of("ntu-2p"), eval::ntu_edges, 20, 0.125, 2));
+    }
+    static std::uint32_t classes_of(const char* name) {
+        return static_cast<std::uint32_t>(ingest::Dataset(datasets() / name).header().classes.size());
+    }
+
+    /// `each` motions of the first `classes` classes.
+    void motions(const std::string& file, unsigned classes, unsigned each, std::uint32_t persons = 1,
+                 unsigned seed = 1, std::uint32_t frames = 60) {
+        ingest::MotionsWriter writer(dir / file);
+        for (unsigned c = 0; c < classes; ++c)
+            for (unsigned i = 0; i < each; ++i)
+                writer.add(fmt::format("A{:03}_{}", c + 1, i),
+                           made_motion(frames, persons, seed * 1000 + c * 100 + i));
+        writer.finish();
+    }
+    void features(const std::string& file, const std::vector<std::uint32_t>& labels,
+                  std::size_t dimensions = 8, std::uint32_t classes = 3, unsigned seed = 1) {
+        eval::FeaturesFile out(dir / file, labels.size(), dimensions, classes);
+        std::mt19937 random(seed);
+        std::normal_distribution<float> normal;
+        std::vector<float> values(labels.size() * dimensions), logits(labels.size() * classes);
+        for (auto& v : values) v = normal(random);
+        for (auto& v : logits) v = normal(random);
+        out.add(0, values, logits);
+        out.labels(labels);
+        out.finish();
+    }
+
+    std::string at(const std::string& name) const { return (dir / name).string(); }
+    CommandResult score(const std::string& arguments) const {
+        return run_command("XDG_CACHE_HOME=" + at("cache") + " " ACTFORMER_PROGRAM " score " + arguments);
+    }
+    nlohmann::json scored(const std::string& arguments) const {
+        const auto result = score(arguments + " --json");
+        EXPECT_EQ(result.exit, 0) << result.output;
+        return nlohmann::json::parse(result.output, nullptr, false);
+    }
+    std::string one_person() const {
+        return "--recogniser " + at("one.h5") + " --real " + (datasets() / "ntu-1p").string() + " ";
+    }
+    std::string two_persons() const {
+        return "--recogniser " + at("two.h5") + " --real " + (datasets() / "ntu-2p").string() + " ";
+    }
+
+    void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
+        const auto result = score(arguments + " -o " + at("refused.json"));
+        EXPECT_EQ(result.exit, 1) << result.output;
+        EXPECT_EQ(lines_in(result.output), 1) << result.output;
+        for (const auto& word : words)
+            EXPECT_NE(result.output.find(word), std::string::npos) << word << ": " << result.output;
+        EXPECT_FALSE(fs::exists(at("refused.json")));
+    }
+
+    nlohmann::json oracle(const std::string& real, const std::string& made) const {
+        const auto result = run_command("/usr/bin/python3 " ACTFORMER_SHARED "/reference/fid.py " + at(real) +
+                                        " " + at(made));
+        EXPECT_EQ(result.exit, 0) << result.output;
+        return nlohmann::json::parse(result.output, nullptr, false);
+    }
+
+    std::uint32_t one_person_classes = 0;
+    TempDir dir;
+};
+
+void expect_near(const nlohmann::json& ours, const nlohmann::json& theirs) {
+    EXPECT_NEAR(ours["mean"].get<double>(), theirs.get<double>(), 1e-6 * std::abs(theirs.get<double>()));
+}
+
+std::vector<std::uint32_t> labels_of(const std::vector<std::size_t>& counts) {
+    std::vector<std::uint32_t> out;
+    for (std::uint32_t c = 0; c < counts.size(); ++c) out.insert(out.end(), counts[c], c);
+    return out;
+}
+
+}  // namespace
+
+TEST_F(Score, OfMotionsAgreesWithTheReference) {
+    if (!has_reference_python())
+        GTEST_SKIP() << "needs " ACTFORMER_SHARED "/reference, and python3 with h5py";
+    motions("m.h5", 4, 6);
+    const auto json = scored(one_person() + "--generated " + at("m.h5") + " --keep-features " + at("kept"));
+    const auto theirs = oracle("kept/real.h5", "kept/generated.h5");
+    expect_near(json["accuracy"], theirs["accuracy"]);
+    expect_near(json["fid_mean"], theirs["fid_mean"]);
+    expect_near(json["fid_whole"], theirs["fid_whole"]);
+    EXPECT_TRUE(json["fid_mean"]["ci95"].is_null()) << "one repeat tells nothing of the spread";
+    EXPECT_FALSE(json.contains("fida_mean"));
+    EXPECT_EQ(json["per_class"].size(), one_person_classes);
+    EXPECT_EQ(json["left_out"].size(), one_person_classes - 4) << "classes without clips";
+    EXPECT_GE(json["floor"]["fid_mean"], 0);
+    EXPECT_LT(json["floor"]["fid_mean"], json["fid_mean"]["mean"]) << "noise is no motion";
+    EXPECT_EQ(json["provenance"]["real"]["fingerprint"],
+              ingest::Dataset(datasets() / "ntu-1p").fingerprint());
+    std::uint64_t counted = 0;
+    for (const auto& row : json["confusion"])
+        for (const auto& n : row) counted += n.get<std::uint64_t>();
+    EXPECT_EQ(counted, 24U);
+}
+
+namespace {
+
+/// The one-person recogniser's features of groups by hand: a motions file with every person apart, `actformer features` over
+/// it, and the maximum over the persons.
+void group_features(const TempDir& dir, const std::vector<ingest::Motion>& groups,
+                    const std::vector<std::uint32_t>& labels, const std::string& out) {
+    ingest::MotionsWriter writer(dir / "apart.h5");
+    for (std::size_t i = 0; i < groups.size(); ++i)
+        for (std::uint32_t p = 0; p < groups[i].persons; ++p) {
+            ingest::Motion alone{"", groups[i].frames, 1, groups[i].joints, {}};
+            for (std::uint32_t t = 0; t < alone.frames; ++t)
+                for (std::uint32_t k = 0; k < alone.joints; ++k)
+                    for (std::size_t d = 0; d < 3; ++d) alone.values.push_back(groups[i].at(t, p, k)[d]);
+            writer.add(fmt::format("{:06}_{}", i, p), alone);
+        }
+    writer.finish();
+    const auto made = run_actformer("features --recogniser " + (dir / "one.h5").string() + " " +
+                                    (dir / "apart.h5").string() + " -o " + (dir / "alone.h5").string());
+    ASSERT_EQ(made.exit, 0) << made.output;
+    const Reader file(dir / "alone.h5");
+    const auto alone = file.read<float>("features");
+    const auto d = file.shape("features")[1], persons = file.shape("features")[0] / groups.size();
+    std::vector<float> largest;
+    for (std::size_t i = 0; i < groups.size(); ++i)
+        for (std::size_t c = 0; c < d; ++c) {
+            float most = -1e30F;
+            for (std::size_t p = 0; p < persons; ++p) most = std::max(most, alone[(i * persons + p) * d + c]);
+            largest.push_back(most);
+        }
+    eval::FeaturesFile features(dir / out, groups.size(), d, 1);
+    features.add(0, largest, std::vector<float>(groups.size(), 0.0F));
+    features.labels(labels);
+    features.finish();
+}
+
+}  // namespace
+
+TEST_F(Score, OfGroupsSeesEveryPersonAlone) {
+    if (!has_reference_python())
+        GTEST_SKIP() << "needs " ACTFORMER_SHARED "/reference, and python3 with h5py";
+    motions("m.h5", 2, 5, 2, 1, 20);
+    const auto json = scored(two_persons() + "--window 20 --single-recogniser " + at("one.h5") +
+                             " --generated " + at("m.h5"));
+    const ingest::Dataset data(datasets() / "ntu-2p");
+    std::vector<ingest::Motion> windows, generated;
+    std::vector<std::uint32_t> real_labels, labels;
+    for (std::size_t c = 0; c < data.clips().size(); ++c) {
+        const auto clip = data.motion(c);
+        for (std::uint32_t first = 0; first + 20 <= clip.frames; first += 20) {
+            ingest::Motion window{"", 20, 2, 25, {}};
+            const auto begin = clip.values.begin() + first * 150;
+            window.values.assign(begin, begin + 20 * 150);
+            windows.push_back(window);
+            real_labels.push_back(data.clips()[c].label);
+        }
+    }
+    const ingest::MotionsFile stored(dir / "m.h5");
+    for (const auto& name : stored.names()) {
+        generated.push_back(stored.read(name));
+        labels.push_back(name[3] - '1');
+    }
+    group_features(dir, windows, real_labels, "r.h5");
+    group_features(dir, generated, labels, "g.h5");
+    const auto theirs = oracle("r.h5", "g.h5");
+    // float features of batches of other sizes are the same: the distances are those of the same numbers
+    expect_near(json["fida_mean"], theirs["fid_mean"]);
+    expect_near(json["fida_whole"], theirs["fid_whole"]);
+    EXPECT_NE(json["fida_whole"], json["fid_whole"]);
+}
+
+TEST_F(Score, OfFeaturesNeedsNoRecogniser) {
+    if (!has_reference_python())
+        GTEST_SKIP() << "needs " ACTFORMER_SHARED "/reference, and python3 with h5py";
+    features("r.h5", labels_of({30, 40, 12}), 32, 3, 1);
+    features("g.h5", labels_of({20, 9, 50}), 32, 3, 2);
+    const auto json = scored("--real-features " + at("r.h5") + " --generated-features " + at("g.h5") +
+                             " --device none-of-the-devices");
+    const auto theirs = oracle("r.h5", "g.h5");
+    expect_near(json["accuracy"], theirs["accuracy"]);
+    expect_near(json["fid_mean"], theirs["fid_mean"]);
+    expect_near(json["fid_whole"], theirs["fid_whole"]);
+    EXPECT_NE(json["warnings"][0].get<std::string>().find("A001 (30 real, 20 generated)"), std::string::npos)
+        << "few samples are warned of with numbers: " << json["warnings"];
+    const auto text = score("--real-features " + at("r.h5") + " --generated-features " + at("g.h5"));
+    EXPECT_NE(text.output.find("FIDm"), std::string::npos) << text.output;
+    EXPECT_NE(text.output.find("real against real"), std::string::npos) << text.output;
+}
+
+TEST_F(Score, ReadsFeaturesThatAnotherToolWrote) {
+    if (!has_reference_python())
+        GTEST_SKIP() << "needs " ACTFORMER_SHARED "/reference, and python3 with h5py";
+    // Double precision, whole numbers of another size, names of any length: what h5py writes unasked. The distance is a
+    // millionth of the features' size, out of single precision's reach.
+    write_file(dir / "write.py",
+               "import sys, h5py, numpy as np\n"
+               "random = np.random.default_rng(1)\n"
+               "labels = np.repeat([0, 1], 40)\n"
+               "base = random.normal(size=(80, 12)) + 1000\n"
+               "for path, shift in ((sys.argv[1], 0), (sys.argv[2], 1e-3)):\n"
+               "    with h5py.File(path, 'w') as f:\n"
+               "        f['features'] = base + shift\n"
+               "        f['logits'] = random.normal(size=(80, 2))\n"
+               "        f['labels'] = labels\n"
+               "        f['names'] = [f'walk{i // 2}@{60 * (i % 2)}' for i in range(80)]\n");
+    ASSERT_EQ(run_command("/usr/bin/python3 " + at("write.py") + " " + at("r.h5") + " " + at("g.h5")).exit,
+              0);
+    const auto json = scored("--real-features " + at("r.h5") + " --generated-features " + at("g.h5"));
+    expect_near(json["fid_mean"], oracle("r.h5", "g.h5")["fid_mean"]);
+    EXPECT_NEAR(json["fid_whole"]["mean"].get<double>(), 12e-6, 1e-10);
+    EXPECT_EQ(json["floor"]["samples"].get<int>() % 2, 0) << "both windows of a clip on one side";
+}
+
+TEST_F(Score, OfIdenticalFeaturesIsNothing) {
+    features("r.h5", labels_of({30, 5, 12}), 16);
+    const auto json = scored("--real-features " + at("r.h5") + " --generated-features " + at("r.h5"));
+    EXPECT_EQ(json["fid_mean"]["mean"], 0);
+    EXPECT_EQ(json["fid_whole"]["mean"], 0);
+}
+
+TEST_F(Score, LeavesOutAndNamesClassesOfOneSample) {
+    features("r.h5", labels_of({30, 1, 12, 8}), 8, 4, 1);
+    features("g.h5", labels_of({20, 9, 1, 7}), 8, 4, 2);
+    const auto json = scored("--real-features " + at("r.h5") + " --generated-features " + at("g.h5"));
+    ASSERT_EQ(json["left_out"].size(), 2U);
+    EXPECT_EQ(json["left_out"][0]["class"], "A002");
+    EXPECT_EQ(json["left_out"][0]["real"], 1);
+    EXPECT_EQ(json["left_out"][1]["class"], "A003");
+    EXPECT_EQ(json["left_out"][1]["generated"], 1);
+    EXPECT_TRUE(json["per_class"][1]["fid"].is_null());
+    EXPECT_NEAR(json["fid_mean"]["mean"].get<double>(),
+                (json["per_class"][0]["fid"].get<double>() + json["per_class"][3]["fid"].get<double>()) / 2,
+                1e-9);
+    EXPECT_NE(json["warnings"][0].get<std::string>().find("A002 (1 real, 9 generated)"), std::string::npos);
+}
+
+TEST_F(Score, RepeatsHaveAnInterval) {
+    features("r.h5", labels_of({30, 40}), 8, 2, 1);
+    std::string files;
+    std::vector<double> each;
+    for (unsigned i = 0; i < 3; ++i) {
+        const auto name = fmt::format("g{}.h5", i);
+        features(name, labels_of({20, 20}), 8, 2, 10 + i);
+        files += " " + at(name);
+        each.push_back(scored("--real-features " + at("r.h5") + " --generated-features " +
+                              at(name))["fid_mean"]["mean"]);
+    }
+    const auto fid = scored("--real-features " + at("r.h5") + " --generated-features" + files)["fid_mean"];
+    EXPECT_EQ(fid["repeats"].get<std::vector<double>>(), each);
+    const double mean = (each[0] + each[1] + each[2]) / 3;
+    double squares = 0;
+    for (const double v : each) squares += (v - mean) * (v - mean);
+    EXPECT_NEAR(fid["mean"].get<double>(), mean, 1e-12);
+    EXPECT_NEAR(fid["ci95"].get<double>(), 4.302653 * std::sqrt(squares / 2 / 3), 1e-6);
+}
+
+TEST_F(Score, KeepsTheRealSide) {
+    motions("m.h5", 4, 3);
+    const auto arguments = one_person() + "--generated " + at("m.h5");
+    const auto first = scored(arguments);
+    std::vector<fs::path> kept;
+    for (const auto& entry : fs::directory_iterator(dir / "cache/actformer/features"))
+        if (entry.path().extension() == ".h5") kept.push_back(entry.path());
+    ASSERT_EQ(kept.size(), 1U);
+    const auto bytes = read_file(kept[0]);
+    const auto time = fs::last_write_time(kept[0]);
+    EXPECT_EQ(scored(arguments), first);
+    EXPECT_EQ(fs::last_write_time(kept[0]), time) << "not made again";
+    write_file(kept[0], bytes.substr(0, bytes.size() / 2));
+    EXPECT_EQ(scored(arguments), first) << "what is damaged is made anew";
+    EXPECT_EQ(read_file(kept[0]), bytes);
+    scored(arguments + " --window 30");
+    EXPECT_EQ(
+        std::distance(fs::directory_iterator(dir / "cache/actformer/features"), fs::directory_iterator()), 5)
+        << "other windows, other features, each with its lock, and the folder's";
+
+    fs::remove_all(dir / "cache");
+    const auto both = run_command(
+        fmt::format("for i in 1 2; do (XDG_CACHE_HOME={} {} score {} --json >{}/$i.json) & done; wait",
+                    at("cache"), ACTFORMER_PROGRAM, arguments, dir.path().string()));
+    EXPECT_EQ(both.output, "");
+    EXPECT_EQ(nlohmann::json::parse(read_file(dir / "1.json")), first) << "two at once";
+    EXPECT_EQ(nlohmann::json::parse(read_file(dir / "2.json")), first);
+
+    write_file(dir / "no-folder/actformer", "");
+    const auto without = run_command("XDG_CACHE_HOME=" + at("no-folder") + " " ACTFORMER_PROGRAM " score " +
+                                     arguments + " --json");
+    EXPECT_EQ(nlohmann::json::parse(without.output), first) << "where there can be no cache";
+}
+
+TEST_F(Score, TakesLabelsFromAFile) {
+    ingest::MotionsWriter writer(dir / "m.h5");
+    ingest::MotionsWriter named(dir / "named.h5");
+    std::string lines = "# name and action\n";
+    for (unsigned i = 0; i < 8; ++i) {
+        const auto motion = made_motion(60, 1, i);
+        writer.add(fmt::format("walk {}", i), motion);
+        named.add(fmt::format("A{:03}_{}", 1 + i % 2, i), motion);
+    }
+    writer.finish();
+    named.finish();
+    expect_refused(one_person() + "--generated " + at("m.h5"), {"m.h5", "--labels"});
+    ingest::MotionsWriter plain(dir / "plain.h5");
+    for (unsigned i = 0; i < 8; ++i) {
+        plain.add(fmt::format("walk{}", i), made_motion(60, 1, i));
+        lines += fmt::format("walk{}\t{}\n", i, i % 2 ? "A002" : "1");
+    }
+    plain.finish();
+    write_file(dir / "labels.txt", lines);
+    const auto with =
+        scored(one_person() + "--generated " + at("plain.h5") + " --labels " + at("labels.txt"));
+    const auto without = scored(one_person() + "--generated " + at("named.h5"));
+    EXPECT_NEAR(with["fid_mean"]["mean"].get<double>(), without["fid_mean"]["mean"].get<double>(), 1e-6);
+
+    const auto arguments = one_person() + "--generated " + at("plain.h5") + " --labels " + at("labels.txt");
+    write_file(dir / "labels.txt", lines + "walk0 1\n");
+    expect_refused(arguments, {"labels.txt", "line 10", "twice"});
+    write_file(dir / "labels.txt", "walk0 999\n");
+    expect_refused(arguments, {"labels.txt", "line 1", "999"});
+    write_file(dir / "labels.txt", "walk0\n");
+    expect_refused(arguments, {"labels.txt", "line 1", "walk0"});
+    write_file(dir / "labels.txt", "walk0 1\n");
+    expect_refused(arguments, {"plain.h5", "walk1"});
+}
+
+TEST_F(Score, RunsTheGeneratorOnceASeed) {
+    for (unsigned seed = 5; seed < 8; ++seed) motions(fmt::format("made-{}.h5", seed), 4, 3, 1, seed);
+    fs::create_directory(dir / "run");
+    write_file(dir / "run/config.yaml", "model: generator\n");
+    const auto program = at("fake");  // stands in for `actformer generate`
+    write_file(program,
+               "#!/bin/sh\n"
+               "while [ $# -gt 0 ]; do case $1 in -o) out=$2;; --seed) seed=$2;; --per-class) n=$2;; esac; "
+               "shift; done\n"
+               "echo \"$seed $n\" >> " +
+                   at("calls") +
+                   "\n"
+                   "[ -e " +
+                   at("broken") +
+                   " ] && [ $seed = 7 ] && { echo 'actformer: out of luck' >&2; exit 1; }\n"
+                   "cp " +
+                   dir.path().string() + "/made-$seed.h5 $out\n");
+    ::chmod(program.c_str(), 0755);
+    const auto arguments = one_person() + "--generator " + at("run") +
+                           " --repeats 3 --seed 5 --per-class 3 --program " + program;
+    write_file(dir / "broken", "");
+    const auto failed = score(arguments + " -o " + at("s.json"));
+    EXPECT_EQ(failed.exit, 1);
+    EXPECT_NE(failed.output.find("out of luck"), std::string::npos) << failed.output;
+    EXPECT_FALSE(fs::exists(at("s.json")));
+    fs::remove(dir / "broken");
+    const auto again = score(arguments + " -o " + at("s.json"));
+    ASSERT_EQ(again.exit, 0) << again.output;
+    EXPECT_EQ(read_file(at("calls")), "5 3\n6 3\n7 3\n7 3\n")
+        << "what was made before the failure is not made again";
+    EXPECT_FALSE(fs::exists(at("s.json.work")));
+    const auto json = nlohmann::json::parse(read_file(at("s.json")));
+    EXPECT_EQ(json["provenance"]["generated"][2]["seed"], 7);
+    const auto same = scored(one_person() + "--seed 5 --generated " + at("made-5.h5") + " " +
+                             at("made-6.h5") + " " + at("made-7.h5"));
+    EXPECT_EQ(json["fid_mean"], same["fid_mean"]);
+    EXPECT_EQ(json["confusion"], same["confusion"]);
+    expect_refused(one_person() + "--generator " + at("nowhere"), {"nowhere", "no such folder"});
+}
+
+TEST_F(Score, WarnsOfCollapseAndOtherLengths) {
+    ingest::MotionsWriter writer(dir / "m.h5");
+    for (unsigned i = 0; i < 6; ++i) writer.add(fmt::format("A001_{}", i), made_motion(40, 1, 3));
+    writer.finish();
+    const auto json = scored(one_person() + "--generated " + at("m.h5"));
+    std::string warnings;
+    for (const auto& line : json["warnings"]) warnings += line.get<std::string>() + "\n";
+    EXPECT_NE(warnings.find("are the same: drink water (6 samples)"), std::string::npos) << warnings;
+    EXPECT_NE(warnings.find("40 frames are compared with windows of 60"), std::string::npos) << warnings;
+}
+
+TEST_F(Score, RefusesWhatDoesNotFit) {
+    motions("m.h5", 4, 3);
+    motions("two.h5m", 2, 3, 2);
+    expect_refused(one_person() + "--generated " + at("two.h5m"), {"two.h5m", "6 channels"});
+    expect_refused("--recogniser " + at("two.h5") + " --real " + (datasets() / "ntu-1p").string() +
+                       " --generated " + at("m.h5"),
+                   {"ntu-1p", "persons", "two.h5"});
+    expect_refused(one_person() + "--single-recogniser " + at("one.h5") + " --generated " + at("m.h5"),
+                   {"--single-recogniser"});
+    expect_refused(two_persons() + "--single-recogniser " + at("two.h5") + " --generated " + at("two.h5m"),
+                   {"two.h5", "one"});
+    write_weights(dir / "more.h5",
+                  eval::random_weights(3, one_person_classes + 1, eval::ntu_edges, 20, 0.125, 1));
+    expect_refused("--recogniser " + at("more.h5") + " --real " + (datasets() / "ntu-1p").string() +
+                       " --generated " + at("m.h5"),
+                   {"classes", "more.h5"});
+    expect_refused(one_person() + "--generated " + at("none.h5"), {"none.h5"});
+    expect_refused(one_person() + "--split nowhere --generated " + at("m.h5"), {"nowhere"});
+    expect_refused("--recogniser " + at("gone.h5") + " --real " + (datasets() / "ntu-1p").string() +
+                       " --generated " + at("m.h5"),
+                   {"gone.h5"});
+    expect_refused(one_person() + "--generated " + at("m.h5") + " --generator " + at("run"), {"either"});
+    expect_refused(one_person(), {"--generated"});
+    expect_refused(
+        "--real " + datasets().string() + " --recogniser " + at("one.h5") + " --generated " + at("m.h5"),
+        {"2 datasets"});
+    ingest::MotionsWriter single(dir / "single.h5");
+    single.add("A001_0", made_motion(60, 1, 1));
+    single.finish();
+    const auto result = score(one_person() + "--generated " + at("single.h5") + " -o " + at("s.json"));
+    EXPECT_EQ(result.exit, 1);
+    EXPECT_NE(result.output.find("single.h5: one sample is too few"), std::string::npos) << result.output;
+    EXPECT_FALSE(fs::exists(at("s.json")));
+}
+
+TEST_F(Score, RefusesFeaturesThatDoNotFit) {
+    features("r.h5", labels_of({30, 40}), 8, 2);
+    const auto against = [&](const std::string& file) {
+        return "--real-features " + at("r.h5") + " --generated-features " + at(file);
+    };
+    features("wide.h5", labels_of({30, 40}), 9, 2);
+    expect_refused(against("wide.h5"), {"wide.h5", "9", "8"});
+    features("classes.h5", labels_of({30, 40, 5}), 8, 3);
+    expect_refused(against("classes.h5"), {"classes.h5", "3 classes", "2"});
+    features("label.h5", labels_of({30, 40, 5}), 8, 2);
+    expect_refused(against("label.h5"), {"label.h5", "label 2"});
+    features("one.h5", {0}, 8, 2);
+    expect_refused(against("one.h5"), {"one.h5", "too few"});
+    features("none.h5", {}, 8, 2);
+    expect_refused(against("none.h5"), {"none.h5"});
+    expect_refused(against("missing.h5"), {"missing.h5"});
+    expect_refused("--real-features " + at("r.h5"), {"together"});
+    expect_refused(against("r.h5") + " --recogniser " + at("one.h5"), {"either"});
+    write_file(dir / "text.h5", "text");
+    expect_refused(against("text.h5"), {"text.h5", "HDF5"});
+
+    eval::FeaturesFile file(dir / "nan.h5", 3, 2, 2);
+    file.add(0, std::vector<float>{0, 1, 2, std::nanf(""), 4, 5}, std::vector<float>(6, 0.0F));
+    file.labels({0, 1, 1});
+    file.finish();
+    expect_refused("--real-features " + at("nan.h5") + " --generated-features " + at("r.h5"),
+                   {"nan.h5", "sample 1", "not finite"});
+    eval::FeaturesFile bare(dir / "bare.h5", 3, 2, 2);
+    bare.add(0, std::vector<float>(6, 0.0F), std::vector<float>(6, 0.0F));
+    bare.finish();
+    expect_refused(against("bare.h5"), {"bare.h5", "labels"});
+}

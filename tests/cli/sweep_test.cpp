@@ -1,0 +1,280 @@
+// `actformer sweep` as its users meet it, with a stand-in that trains and scores at once.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+/// Notes its call, makes what it was asked for, and fails where the file "broken" holds a word of the call.
+constexpr const char* stand_in =
+    "#!/bin/sh\n"
+    "here=$(dirname \"$0\")\n"
+    "echo \"$@\" >> \"$here/calls\"\n"
+    "sleep \"$(cat \"$here/pause\" 2>/dev/null || echo 0)\"\n"
+    "if [ -e \"$here/broken\" ] && echo \"$@\" | grep -q \"$(cat \"$here/broken\")\"; then\n"
+    "    echo \"loading\" >&2; echo \"actformer: out of luck\" >&2; exit 1\n"
+    "fi\n"
+    "kind=$1\n"
+    "while [ $# -gt 0 ]; do [ \"$1\" = -o ] && out=$2; shift; done\n"
+    "case $kind in\n"
+    "    generate) echo motions > \"$out\" ;;\n"
+    "    score) echo '{\"accuracy\": {\"mean\": 0.5}}' > \"$out\" ;;\n"
+    "    ingest) mkdir -p \"$out/ntu-1p\" \"$out/ntu-2p\" ;;\n"
+    "    *) mkdir -p \"$out\" ;;\n"
+    "esac\n";
+
+struct Sweep : testing::Test {
+    void SetUp() override {
+        write_file(dir / "actformer", stand_in);
+        ::chmod((dir / "actformer").c_str(), 0755);
+        write_file(dir / "r.yaml", "model: recogniser\n");
+        write_file(dir / "g.yaml", "model: generator\n");
+    }
+    void sweep_file(const std::string& rows, const std::string& more = "") {
+        write_file(dir / "sweep.yaml",
+                   "name: test\n"
+                   "datasets:\n"
+                   "  one: {clips: 60, actions: 1-4, use: ntu-1p}\n"
+                   "  two: {like: one, use: ntu-2p}\n"
+                   "recognisers:\n"
+                   "  eyes: {data: one, config: r.yaml, set: {epochs: 2}}\n"
+                   "base: {data: one, recogniser: eyes, config: g.yaml, repeats: 3, set: {epochs: 5}}\n" +
+                       more + "rows:\n" + rows);
+    }
+    std::string command(const std::string& more = "") const {
+        return std::string(ACTFORMER_PROGRAM) + " sweep " + at("sweep.yaml") + " -o " + at("out") +
+               " --program " + at("actformer") + " " + more;
+    }
+    CommandResult sweep(const std::string& more = "") const { return run_command(command(more)); }
+    std::string at(const std::string& name) const { return (dir / name).string(); }
+    std::vector<std::string> calls() const {
+        std::vector<std::string> out;
+        std::istringstream lines(read_file(dir / "calls"));
+        for (std::string line; std::getline(lines, line);) out.push_back(line);
+        return out;
+    }
+    long calls_of(const std::string& word) const {
+        const auto all = calls();
+        return std::count_if(all.begin(), all.end(),
+                             [&](const std::string& c) { return c.find(word) != std::string::npos; });
+    }
+    Json results() const { return Json::parse(read_file(dir / "out/results.json"), nullptr, false); }
+    void expect_refused(const std::vector<std::string>& words) const {
+        const auto result = sweep("--dry-run");
+        EXPECT_EQ(result.exit, 1) << result.output;
+        EXPECT_EQ(lines_in(result.output), 1) << result.output;
+        for (const auto& word : words)
+            EXPECT_NE(result.output.find(word), std::string::npos) << word << ": " << result.output;
+        EXPECT_FALSE(fs::exists(at("out")));
+    }
+    TempDir dir;
+};
+
+const char* const two_rows =
+    "  full: {fills: [table1/ActFormer/NTU-1P, table3/full/NTU-1P]}\n"
+    "  gaussian: {like: full, set: {prior: gaussian}, fills: [table3/Gaussian prior/NTU-1P]}\n";
+
+}  // namespace
+
+TEST_F(Sweep, DoesSharedWorkOnce) {
+    sweep_file(two_rows);
+    const auto result = sweep();
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_EQ(calls_of("synth"), 1);
+    EXPECT_EQ(calls_of("ingest ntu"), 1);
+    EXPECT_EQ(calls_of("train recogniser"), 1);
+    EXPECT_EQ(calls_of("train generator"), 2);
+    EXPECT_EQ(calls_of("generate --generator"), 2);
+    EXPECT_EQ(calls_of("score"), 2);
+    EXPECT_EQ(calls_of("epochs=5 prior=gaussian seed=0"), 1)
+        << "settings are laid over the base's key by key";
+    const auto json = results();
+    ASSERT_EQ(json["rows"].size(), 2U);
+    EXPECT_EQ(json["rows"][1]["status"], "done");
+    EXPECT_EQ(json["rows"][1]["fills"], Json::array({"table3/Gaussian prior/NTU-1P"}))
+        << "not those of what it is like";
+    for (const auto& row : json["rows"])
+        for (const auto* key : {"scores", "motions", "run", "recogniser", "dataset"})
+            EXPECT_TRUE(fs::exists(dir / "out" / row["runs"][0][key].get<std::string>())) << key;
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(calls().size(), 9U) << "all is done";
+
+    write_file(dir / "g.yaml", "model: generator\nwidth: 64\n");
+    ASSERT_EQ(sweep("--jobs 3").exit, 0);
+    EXPECT_EQ(calls().size(), 15U) << "another configuration makes other generators, and nothing else";
+}
+
+TEST_F(Sweep, TrainsEverySeed) {
+    sweep_file("  full: {seeds: [1, 2, 7], fills: [table3/full/NTU-1P]}\n");
+    ASSERT_EQ(sweep("--jobs 2").exit, 0);
+    EXPECT_EQ(calls_of("seed=7"), 1);
+    EXPECT_EQ(calls_of("score"), 3);
+    EXPECT_EQ(results()["rows"][0]["runs"].size(), 3U);
+}
+
+TEST_F(Sweep, ARowThatFailsStopsNoOther) {
+    sweep_file(two_rows);
+    write_file(dir / "broken", "prior=gaussian");
+    const auto result = sweep();
+    EXPECT_EQ(result.exit, 1);
+    EXPECT_NE(result.output.find("failed: gaussian: gaussian, seed 0: generator: actformer: out of luck"),
+              std::string::npos)
+        << result.output;
+    EXPECT_EQ(calls_of("score"), 1) << "the other row is scored";
+    EXPECT_EQ(results()["rows"][0]["status"], "done");
+    EXPECT_EQ(results()["rows"][1]["status"], "failed");
+    EXPECT_NE(results()["rows"][1]["why"].get<std::string>().find("out of luck"), std::string::npos);
+    const auto before = calls().size();
+    fs::remove(dir / "broken");
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(calls().size(), before + 3) << "generator, motions and scores of that row alone";
+    EXPECT_EQ(results()["rows"][1]["status"], "done");
+}
+
+TEST_F(Sweep, KilledTwiceItComesToTheSame) {
+    sweep_file(two_rows);
+    write_file(dir / "pause", "0.2");
+    for (const char* seconds : {"0.5", "0.9"})
+        EXPECT_EQ(run_command("timeout -s KILL " + std::string(seconds) + " " + command()).exit, 128 + 9);
+    ASSERT_EQ(sweep("--jobs 2").exit, 0);
+    const auto killed = read_file(dir / "out/results.json");
+    fs::remove_all(dir / "out");
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(read_file(dir / "out/results.json"), killed);
+}
+
+TEST_F(Sweep, TwoProcessesShareTheWork) {
+    sweep_file(two_rows);
+    write_file(dir / "pause", "0.1");
+    const auto both = run_command(command() + " & " + command() + "; wait");
+    EXPECT_EQ(calls().size(), 9U) << both.output;
+    EXPECT_EQ(results()["rows"][0]["status"], "done");
+    EXPECT_EQ(results()["rows"][1]["status"], "done");
+}
+
+TEST_F(Sweep, PrintsItsPlanAndChangesNothing) {
+    sweep_file(two_rows);
+    const auto plan = sweep("--dry-run");
+    ASSERT_EQ(plan.exit, 0) << plan.output;
+    EXPECT_NE(plan.output.find("train generator -c " + at("g.yaml")), std::string::npos) << plan.output;
+    EXPECT_NE(plan.output.find("8 of 8 jobs to do"), std::string::npos) << plan.output;
+    EXPECT_NE(plan.output.find("about"), std::string::npos) << plan.output;
+    EXPECT_FALSE(fs::exists(at("out")));
+    EXPECT_FALSE(fs::exists(at("calls")));
+    ASSERT_EQ(sweep().exit, 0);
+    const auto status = sweep("--status");
+    EXPECT_NE(status.output.find("0 of 8 jobs to do"), std::string::npos) << status.output;
+    EXPECT_NE(status.output.find("2 of 2 rows done"), std::string::npos) << status.output;
+}
+
+TEST_F(Sweep, ScoresMotionsOfOtherTools) {
+    write_file(dir / "theirs.h5", "motions");
+    sweep_file("  theirs: {motions: [theirs.h5], fills: [table1/ACTOR/NTU-1P]}\n");
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(calls_of("--generated " + at("theirs.h5")), 1);
+    EXPECT_EQ(calls_of("train generator"), 0);
+}
+
+TEST_F(Sweep, MissingDataFailOnlyTheirRows) {
+    sweep_file("  full: {fills: [table3/full/NTU-1P]}\n  theirs: {motions: none.h5}\n");
+    const auto result = sweep();
+    EXPECT_EQ(result.exit, 1);
+    EXPECT_NE(result.output.find("failed: theirs: none.h5: no such file"), std::string::npos)
+        << result.output;
+    EXPECT_EQ(results()["rows"][0]["status"], "done");
+}
+
+TEST_F(Sweep, RefusesWhatMakesNoSense) {
+    sweep_file("  a: {like: b}\n  b: {like: c}\n  c: {like: a}\n");
+    expect_refused({"sweep.yaml", "line ", "circle", "a -> b -> c -> a"});
+    sweep_file("  a: {like: a}\n");
+    expect_refused({"circle", "a -> a"});
+    sweep_file("  a: {like: nobody}\n");
+    expect_refused({"line 9", "nobody"});
+    sweep_file("  a: {fills: [table9/full/NTU-1P]}\n");
+    expect_refused({"line 9", "table9", "table1, table2"});
+    sweep_file("  a: {fills: [table3/fool/NTU-1P]}\n");
+    expect_refused({"fool", "Gaussian prior"});
+    sweep_file("  a: {fills: [table3/full/NTU-2P]}\n");
+    expect_refused({"NTU-2P", "there are NTU-1P"});
+    sweep_file("  a: {fills: [full]}\n");
+    expect_refused({"table3/full/NTU-1P"});
+    sweep_file("  a: {fills: [table3/full/NTU-1P]}\n  b: {fills: [table3/full/NTU-1P]}\n");
+    expect_refused({"table3/full/NTU-1P", "'a' and 'b'"});
+    sweep_file("  a: {repeat: 3}\n");
+    expect_refused({"line 9", "'repeat'", "repeats"});
+    sweep_file("  a: {repeats: many}\n");
+    expect_refused({"line 9", "'repeats'", "whole number"});
+    sweep_file("  a: {repeats: 0}\n");
+    expect_refused({"'repeats'", "at least 1"});
+    sweep_file("  a: {data: three}\n");
+    expect_refused({"line 9", "no dataset 'three'"});
+    sweep_file("  a: {recogniser: ears}\n");
+    expect_refused({"no recogniser 'ears'"});
+    sweep_file("  a: 3\n");
+    expect_refused({"line 9", "must be a map"});
+    sweep_file("  a: {}\n  a: {}\n");
+    expect_refused({"'a' comes twice"});
+    sweep_file("  a: [\n");
+    expect_refused({"sweep.yaml", "line"});
+    write_file(dir / "sweep.yaml", "name: nothing\n");
+    expect_refused({"no rows"});
+    write_file(dir / "sweep.yaml", "just text");
+    expect_refused({"holds no sweep"});
+    fs::remove(dir / "sweep.yaml");
+    expect_refused({"sweep.yaml", "no such file"});
+}
+
+TEST_F(Sweep, NamesAreOnlyText) {
+    const std::string name = "../../<script>alert(1)</script>$(touch x)'";
+    sweep_file("  \"" + name + "\\e[2J\": {fills: [table3/full/NTU-1P]}\n");
+    const auto result = sweep();
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_EQ(result.output.find('\033'), std::string::npos) << "nothing reaches the terminal unescaped";
+    EXPECT_EQ(results()["rows"][0]["name"], name + "\033[2J");
+    for (const auto& entry : fs::directory_iterator(dir / "out/jobs"))
+        EXPECT_EQ(entry.path().filename().string().find_first_not_of("abcdefghijklmnopqrstuvwxyz-0123456789"),
+                  std::string::npos);
+}
+
+TEST_F(Sweep, GoesThroughSlurm) {
+    sweep_file(two_rows);
+    // A stand-in for sbatch that notes its call, answers with a number, and runs the job at once.
+    write_file(dir / "bin/sbatch",
+               "#!/bin/sh\nhere=$(dirname \"$0\")\necho \"$@\" >> $here/calls\n"
+               "for last; do :; done\nsh -c \"$last\" >$here/said 2>&1\nwc -l < $here/calls\n");
+    write_file(dir / "bin/squeue", "#!/bin/sh\n");
+    for (const auto* name : {"sbatch", "squeue"}) ::chmod((dir / "bin" / name).c_str(), 0755);
+    const auto result =
+        run_command("PATH=" + at("bin") + ":$PATH " + command("--slurm --sbatch=--gres=gpu:1"));
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("8 jobs submitted"), std::string::npos) << result.output;
+    const auto said = read_file(dir / "bin/calls");
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 8);
+    EXPECT_NE(said.find("--dependency afterok:1 --kill-on-invalid-dep=yes --gres=gpu:1"), std::string::npos)
+        << said;
+    EXPECT_EQ(results()["rows"][1]["status"], "done") << read_file(dir / "bin/said");
+    EXPECT_EQ(calls().size(), 9U);
+    EXPECT_NE(sweep("--status").output.find("2 of 2 rows done"), std::string::npos);
+}
+
+TEST(SweepFiles, AreSound) {
+    std::size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(ACTFORMER_SOURCE "/reports/sweeps")) {
+        ++files;
+        const auto result = run_command("cd " ACTFORMER_SOURCE " && " ACTFORMER_PROGRAM " sweep " +
+                                        entry.path().string() + " -o /nonexistent/out --dry-run");
+        EXPECT_EQ(result.exit, 0) << result.output;
+    }
+    EXPECT_EQ(files, 6U);
+}
