@@ -1,3 +1,4 @@
+#include "cli/bench.hpp"
 #include "cli/program.hpp"
 
 int main(int argc, char** argv) {
@@ -6,5 +7,9 @@ int main(int argc, char** argv) {
         actformer::cli::add_train(app);
         actformer::cli::add_generate(app);
         actformer::cli::add_model(app);
+        auto* bench =
+            app.add_subcommand("bench", "Measure speed on this machine, with peers in the same run");
+        bench->require_subcommand(1);
+        actformer::cli::add_bench_train(*bench);
     });
 }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "model/layer_clock.hpp"
+
 namespace actformer::model {
 
 Adam::Adam(FlatParameters& parameters, const AdamSettings& settings)
@@ -14,6 +16,7 @@ Adam::Adam(FlatParameters& parameters, const AdamSettings& settings)
 }
 
 void Adam::step() {
+    const LayerTimer timer("Adam");
     ++steps;
     const auto t = static_cast<double>(steps);
     const double rate = settings_.rate / (1 - std::pow(settings_.beta1, t));

@@ -5,6 +5,7 @@
 
 #include "model/actformer/motion_kernels.hpp"
 #include "model/actformer/spectral_kernel.hpp"
+#include "model/layer_clock.hpp"
 
 namespace actformer::model {
 namespace {
@@ -20,6 +21,13 @@ void by_type(const at::Tensor& x, const Run& run) {
         run(double{});
     else
         run(float{});
+}
+
+/// The same under a layer's name.
+template <typename Run>
+void timed(const char* layer, bool backward, const at::Tensor& x, const Run& run) {
+    const LayerTimer timer(layer, backward);
+    by_type(x, run);
 }
 
 /// The tensor's numbers; null where it is undefined.
@@ -64,7 +72,7 @@ struct Spectral : Function<Spectral> {
         auto normalised = at::empty_like(weight);
         const auto rows = u.numel(), columns = v.numel();
         double value = 0;
-        by_type(weight, [&](auto number) {
+        timed("spectral norms", false, weight, [&](auto number) {
             using T = decltype(number);
             const T now =
                 iterate ? cpu::power_iteration<T>(in<T>(weight), rows, columns, in<T>(u), in<T>(v), threads())
@@ -83,7 +91,7 @@ struct Spectral : Function<Spectral> {
         const auto &normalised = saved[0], &u = saved[1], &v = saved[2];
         const auto grad = grads[0].contiguous();
         auto to = at::empty_like(normalised);
-        by_type(grad, [&](auto number) {
+        timed("spectral norms", true, grad, [&](auto number) {
             using T = decltype(number);
             cpu::spectral_backward<T>(in<T>(grad), in<T>(normalised), u.numel(), v.numel(), in<T>(u),
                                       in<T>(v), static_cast<T>(context->saved_data["value"].toDouble()),
@@ -105,7 +113,7 @@ struct Embedding : Function<Embedding> {
         const auto shape = embedding_shape(latent, positions);
         auto tokens =
             at::empty({shape.samples, shape.persons, shape.tokens(), shape.width}, weight.options());
-        by_type(latent, [&](auto number) {
+        timed("latents to tokens", false, latent, [&](auto number) {
             using T = decltype(number);
             cpu::embed_forward<T>(shape, in<T>(latent), linear_of<T>(weight, bias), in<T>(classes),
                                   in<T>(positions), in<T>(tokens), threads());
@@ -120,7 +128,7 @@ struct Embedding : Function<Embedding> {
         const auto grad = grads[0].contiguous();
         const Gradients linear(saved[1], saved[2]);
         auto classes = at::empty_like(saved[3]), positions = at::empty_like(saved[4]);
-        by_type(latent, [&](auto number) {
+        timed("latents to tokens", true, latent, [&](auto number) {
             using T = decltype(number);
             cpu::embed_backward<T>(embedding_shape(latent, positions), in<T>(latent), in<T>(grad),
                                    {linear.to<T>(), in<T>(classes), in<T>(positions)}, threads());
@@ -131,6 +139,10 @@ struct Embedding : Function<Embedding> {
 
 cpu::TokenShape token_shape(const at::Tensor& x) {
     return {x.size(0), x.size(1), x.size(2), x.size(3)};
+}
+
+const char* attention_name(const cpu::AttentionShape& shape) {
+    return shape.over_persons ? "attention over persons" : "attention over frames";
 }
 
 /// A half's six weights, as Function saves them behind x.
@@ -154,7 +166,7 @@ struct Attention : Function<Attention> {
              kept_seen = at::empty({shape.tokens.rows(), shape.seen_pitch()}, x.options());
         auto y = at::empty_like(x);
         const at::Tensor weights[] = {norm, norm_bias, qkv, qkv_bias, proj, proj_bias};
-        by_type(x, [&](auto number) {
+        timed(attention_name(shape), false, x, [&](auto number) {
             using T = decltype(number);
             cpu::attention_forward<T>(shape, in<T>(x), attention_weights<T>(weights),
                                       {in<T>(kept_qkv), in<T>(kept_seen)}, in<T>(y), threads());
@@ -173,7 +185,7 @@ struct Attention : Function<Attention> {
         const auto grad = grads[0].contiguous();
         auto to_x = at::empty_like(x);
         const Gradients norm(saved[1], saved[2]), qkv(saved[3], saved[4]), proj(saved[5], saved[6]);
-        by_type(x, [&](auto number) {
+        timed(attention_name(shape), true, x, [&](auto number) {
             using T = decltype(number);
             cpu::attention_backward<T>(shape, in<T>(x), attention_weights<T>(&saved[1]),
                                        {in<T>(saved[7]), in<T>(saved[8])}, in<T>(grad),
@@ -191,7 +203,7 @@ struct Mlp : Function<Mlp> {
         auto kept = at::empty({shape.tokens.rows(), shape.hidden_pitch()}, x.options());
         auto y = at::empty_like(x);
         const at::Tensor weights[] = {norm, norm_bias, up, up_bias, down, down_bias};
-        by_type(x, [&](auto number) {
+        timed("MLP", false, x, [&](auto number) {
             using T = decltype(number);
             cpu::mlp_forward<T>(shape, in<T>(x), mlp_weights<T>(weights), in<T>(kept), in<T>(y), threads());
         });
@@ -205,7 +217,7 @@ struct Mlp : Function<Mlp> {
         const auto grad = grads[0].contiguous();
         auto to_x = at::empty_like(x);
         const Gradients norm(saved[1], saved[2]), up(saved[3], saved[4]), down(saved[5], saved[6]);
-        by_type(x, [&](auto number) {
+        timed("MLP", true, x, [&](auto number) {
             using T = decltype(number);
             cpu::mlp_backward<T>({token_shape(x), saved[3].size(0)}, in<T>(x), mlp_weights<T>(&saved[1]),
                                  in<T>(saved[7]), in<T>(grad),
@@ -232,7 +244,7 @@ struct Poses : Function<Poses> {
         auto kept = at::empty(
             {shape.tokens.samples * shape.tokens.persons * shape.frames(), shape.raw_pitch()}, x.options());
         auto motion = motion_for(shape, x);
-        by_type(x, [&](auto number) {
+        timed("tokens to motions", false, x, [&](auto number) {
             using T = decltype(number);
             cpu::pose_forward<T>(shape, in<T>(x),
                                  {norm_of<T>(norm, norm_bias), linear_of<T>(head, head_bias)}, in<T>(kept),
@@ -249,7 +261,7 @@ struct Poses : Function<Poses> {
         const auto grad = grads[0].contiguous();
         auto to_x = at::empty_like(x);
         const Gradients norm(saved[1], saved[2]), head(saved[3], saved[4]);
-        by_type(x, [&](auto number) {
+        timed("tokens to motions", true, x, [&](auto number) {
             using T = decltype(number);
             cpu::pose_backward<T>(
                 pose_shape(x, saved[3], context->saved_data["free_joint"].toInt()), in<T>(x),
@@ -266,7 +278,7 @@ struct MotionInput : Function<MotionInput> {
                                           padding};
         auto to = at::empty({shape.samples, shape.nodes, shape.frames + 2 * padding, 2 * shape.channels},
                             motion.options());
-        by_type(motion, [&](auto number) {
+        timed("motions to nodes", false, motion, [&](auto number) {
             using T = decltype(number);
             cpu::motion_input<T>(shape, in<T>(motion), in<T>(to), threads());
         });
@@ -280,13 +292,20 @@ struct MotionInput : Function<MotionInput> {
         const cpu::MotionInputShape shape{grad.size(0), grad.size(3) / 2, grad.size(2) - 2 * padding,
                                           grad.size(1), padding};
         auto to = at::empty({shape.samples, shape.channels, shape.frames, shape.nodes}, grad.options());
-        by_type(grad, [&](auto number) {
+        timed("motions to nodes", true, grad, [&](auto number) {
             using T = decltype(number);
             cpu::motion_input_backward<T>(shape, in<T>(grad), in<T>(to), threads());
         });
         return {to, {}};
     }
 };
+
+const char* convolution_name(const cpu::NodeShape& shape) {
+    if (shape.out_nodes == 1) return "convolution over all nodes";
+    if (shape.stride == 1) return "graph convolution, all frames";
+    if (shape.in_nodes == shape.out_nodes) return "graph convolution, coarse nodes";
+    return "graph convolution, coarsening";
+}
 
 /// Functions take no undefined tensors: an empty bias stands for none.
 struct NodeConvolve : Function<NodeConvolve> {
@@ -295,7 +314,7 @@ struct NodeConvolve : Function<NodeConvolve> {
                               double leak) {
         auto y =
             at::empty({shape.samples, shape.out_nodes, shape.padded_out_frames(), shape.out}, x.options());
-        by_type(x, [&](auto number) {
+        timed(convolution_name(shape), false, x, [&](auto number) {
             using T = decltype(number);
             cpu::node_forward<T>(shape, *sums, in<T>(x), in<T>(weight),
                                  bias.numel() > 0 ? in<T>(bias) : nullptr, static_cast<T>(leak), in<T>(y),
@@ -323,7 +342,7 @@ struct NodeConvolve : Function<NodeConvolve> {
         if (context->needs_input_grad(0)) to_x = at::empty_like(x);
         if (context->needs_input_grad(1)) to_weight = at::empty_like(weight);
         if (bias.numel() > 0 && context->needs_input_grad(2)) to_bias = at::empty_like(bias);
-        by_type(x, [&](auto number) {
+        timed(convolution_name(shape), true, x, [&](auto number) {
             using T = decltype(number);
             cpu::node_backward<T>(shape, *sums, in<T>(x), in<T>(weight),
                                   static_cast<T>(context->saved_data["leak"].toDouble()), in<T>(y),
@@ -348,7 +367,7 @@ at::Tensor fused_embedding(const at::Tensor& latent, const LinearTensors& linear
 void fused_attention_in_place(const at::Tensor& x, const LinearTensors& norm, const LinearTensors& qkv,
                               const LinearTensors& proj, std::int64_t heads, bool over_persons) {
     const at::Tensor weights[] = {norm.weight, norm.bias, qkv.weight, qkv.bias, proj.weight, proj.bias};
-    by_type(x, [&](auto number) {
+    timed(over_persons ? "attention over persons" : "attention over frames", false, x, [&](auto number) {
         using T = decltype(number);
         cpu::attention_forward<T>({token_shape(x), heads, over_persons}, in<T>(x),
                                   attention_weights<T>(weights), {nullptr, nullptr}, in<T>(x), threads());
@@ -368,7 +387,7 @@ at::Tensor fused_attention(const at::Tensor& x, const LinearTensors& norm, const
 void fused_mlp_in_place(const at::Tensor& x, const LinearTensors& norm, const LinearTensors& up,
                         const LinearTensors& down) {
     const at::Tensor weights[] = {norm.weight, norm.bias, up.weight, up.bias, down.weight, down.bias};
-    by_type(x, [&](auto number) {
+    timed("MLP", false, x, [&](auto number) {
         using T = decltype(number);
         cpu::mlp_forward<T>({token_shape(x), up.weight.size(0)}, in<T>(x), mlp_weights<T>(weights), nullptr,
                             in<T>(x), threads());
@@ -388,7 +407,7 @@ at::Tensor fused_poses(const at::Tensor& x, const LinearTensors& norm, const Lin
     if (keeps()) return Poses::apply(x, norm.weight, norm.bias, head.weight, head.bias, free_joint);
     const auto shape = pose_shape(x, head.weight, free_joint);
     auto motion = motion_for(shape, x);
-    by_type(x, [&](auto number) {
+    timed("tokens to motions", false, x, [&](auto number) {
         using T = decltype(number);
         cpu::pose_forward<T>(shape, in<T>(x),
                              {norm_of<T>(norm.weight, norm.bias), linear_of<T>(head.weight, head.bias)},

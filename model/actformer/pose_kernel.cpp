@@ -29,12 +29,6 @@ enum Slot : std::size_t {
 
 constexpr double length_epsilon = 1e-4;
 
-template <typename T>
-Lanes<T> root(Lanes<T> x) {
-    for (std::ptrdiff_t i = 0; i < lanes<T>; ++i) x[i] = std::sqrt(x[i]);
-    return x;
-}
-
 /// Rows (joints, axes) of `width` numbers to (axes, joints), or back.
 template <typename T>
 void turn(const T* from, std::int64_t joints, std::int64_t width, bool back, T* to) {
@@ -57,7 +51,7 @@ struct Limbs {
             bent[d] = hyperbolic_tangent(load_part(raw + d * joints + k, here));
             square += bent[d] * bent[d];
         }
-        length = root<T>(square);
+        length = root(square);
     }
 };
 

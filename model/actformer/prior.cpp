@@ -4,6 +4,7 @@
 
 #include "kernels/error.hpp"
 #include "model/actformer/random_kernel.hpp"
+#include "model/layer_clock.hpp"
 
 namespace actformer::model {
 namespace {
@@ -36,22 +37,24 @@ at::Tensor Prior::factors(std::int64_t frames) const {
     for (std::int64_t c = 0; c < settings_.channels; ++c)
         covariances.push_back(exact_covariance(settings_, c, frames));
     const auto smoothed = at::stack(covariances) + jitter * at::eye(frames, at::kDouble);
-    return factors = at::linalg_cholesky(smoothed).transpose(1, 2).to(at::kFloat).contiguous();
+    return factors = at::linalg_cholesky(smoothed).permute({1, 2, 0}).to(at::kFloat).contiguous();
 }
 
 at::Tensor Prior::draw(std::uint64_t index, std::int64_t count, std::int64_t frames,
                        std::uint64_t first_sample) const {
-    const at::NoGradGuard no_gradients;
+    const LayerTimer timer("prior");
     const std::int64_t streams = settings_.streams, channels = settings_.channels;
     const bool gp = settings_.kind == PriorKind::gp;
-    auto numbers = at::empty({count, streams, channels, gp ? frames : 1}, at::kFloat);
-    cpu::normal_numbers({seed_, index, for_latents}, first_sample, count,
-                        numbers.numel() / std::max<std::int64_t>(1, count), numbers.data_ptr<float>(),
-                        at::get_num_threads());
-    if (!gp) return numbers.permute({0, 1, 3, 2}).expand({count, streams, frames, channels}).contiguous();
-    const auto by_channel = numbers.view({count * streams, channels, frames}).transpose(0, 1);
-    const auto smooth = at::bmm(by_channel, factors(frames));  // (channels, count * streams, frames)
-    return smooth.permute({1, 2, 0}).reshape({count, streams, frames, channels}).contiguous();
+    const auto drawn = gp ? frames : 1;
+    auto normals = at::empty({count, streams, drawn, channels}, at::kFloat);
+    cpu::normal_numbers({seed_, index, for_latents}, first_sample, count, streams * drawn * channels,
+                        normals.data_ptr<float>(), at::get_num_threads());
+    if (!gp) return normals.expand({count, streams, frames, channels}).contiguous();
+    const auto factors = this->factors(frames);
+    auto latent = at::empty_like(normals);
+    cpu::correlate(normals.data_ptr<float>(), factors.data_ptr<float>(), count * streams, frames, channels,
+                   latent.data_ptr<float>(), at::get_num_threads());
+    return latent;
 }
 
 at::Tensor Prior::labels(std::uint64_t index, std::int64_t count, std::int64_t classes,

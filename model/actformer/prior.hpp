@@ -38,7 +38,7 @@ class Prior {
     std::uint64_t seed_;
     mutable std::mutex mutex_;
     mutable std::map<std::int64_t, at::Tensor>
-        factors_;  ///< by frames: (channels, frames, frames), transposed
+        factors_;  ///< by frames: (frames, frames, channels), lower triangles
 };
 
 }  // namespace actformer::model

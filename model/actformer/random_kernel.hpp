@@ -13,19 +13,26 @@ Words philox(Words counter, std::array<std::uint32_t, 2> key);
 
 /// Where a stream of numbers is in the space of all: numbers of different places have nothing to do with each other.
 struct RandomPlace {
-    std::uint64_t seed = 0, index = 0;
+    std::uint64_t seed = 0, index = 0;  ///< index below 2^56
     std::uint8_t purpose = 0;
 };
 
-/// Four random words; place.index below 2^56.
+/// Four random words.
 Words random_words(const RandomPlace& place, std::uint64_t sample, std::uint32_t block);
 
-/// values (samples, count): standard normal numbers, those of sample first + i in row i.
+/// values (samples, count): standard normal numbers, those of sample first + i in row i. A row's first numbers are the same
+/// for every count. Numbers come by 64: words 0 and 1, then 2 and 3, of 16 blocks give 16 cosines and 16 sines each (Box and
+/// Muller).
 void normal_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t samples, std::int64_t count,
                     float* values, int threads);
 
 /// values (samples): whole numbers below `bound`.
 void whole_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t samples, std::uint32_t bound,
                    std::int64_t* values);
+
+/// Every channel's numbers over the frames times its triangular factor: to (draws, frames, channels) at (n, t, c) = the sum
+/// over s <= t of factors (frames, frames, channels) at (t, s, c) times normals (draws, frames, channels) at (n, s, c).
+void correlate(const float* normals, const float* factors, std::int64_t draws, std::int64_t frames,
+               std::int64_t channels, float* to, int threads);
 
 }  // namespace actformer::model::cpu

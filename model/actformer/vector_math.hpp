@@ -63,6 +63,58 @@ inline Floats hyperbolic_tangent(Floats x) {
     return size < 0.625F ? near : x < 0.0F ? -far : far;
 }
 
+/// The natural logarithm of positive numbers.
+inline Floats logarithm(Floats x) {
+    Bits exponent = (Bits(x) >> 23) - 126;
+    Floats m = Floats((Bits(x) & 0x007FFFFF) | 0x3F000000);  // in [0.5, 1)
+    const auto low = m < 0.707106781F;
+    exponent += Bits(low);  // comparisons give -1
+    m = (low ? m + m : m) - 1.0F;
+    const Floats square = m * m;
+    Floats p = m * 7.0376836292e-2F - 1.1514610310e-1F;
+    p = p * m + 1.1676998740e-1F;
+    p = p * m - 1.2420140846e-1F;
+    p = p * m + 1.4249322787e-1F;
+    p = p * m - 1.6668057665e-1F;
+    p = p * m + 2.0000714765e-1F;
+    p = p * m - 2.4999993993e-1F;
+    p = p * m + 3.3333331174e-1F;
+    const Floats e = __builtin_convertvector(exponent, Floats);
+    return (p * m * square - e * 2.12194440e-4F - 0.5F * square) + m + e * 0.693359375F;
+}
+
+struct Turn {
+    Floats cosine, sine;
+};
+
+/// Of the angle that is `x` of a whole turn, x in [0, 1].
+inline Turn turned(Floats x) {
+    constexpr float shift = 12582912.0F;
+    const Floats shifted = x * 4.0F + shift, quarters = shifted - shift;
+    const Bits quarter = Bits(shifted);
+    const Floats angle = (x - quarters * 0.25F) * 6.28318530718F,
+                 square = angle * angle;  // within an eighth of a turn
+    Floats s = square * -1.9515295891e-4F + 8.3321608736e-3F;
+    s = s * square - 1.6666654611e-1F;
+    s = s * square * angle + angle;
+    Floats c = square * 2.443315711809948e-5F - 1.388731625493765e-3F;
+    c = c * square + 4.166664568298827e-2F;
+    c = c * square * square - 0.5F * square + 1.0F;
+    const auto odd = (quarter & 1) != 0;
+    const Floats cosine = odd ? -s : c, sine = odd ? c : s;
+    const auto back = (quarter & 2) != 0;
+    return {back ? -cosine : cosine, back ? -sine : sine};
+}
+
+inline Floats root(Floats x) {
+#if defined(__AVX512F__)
+    return Floats(_mm512_maskz_sqrt_ps(0xFFFF, __m512(x)));
+#else
+    for (std::ptrdiff_t i = 0; i < lanes<float>; ++i) x[i] = std::sqrt(x[i]);
+    return x;
+#endif
+}
+
 /// x times the chance that a normal number is below x, and its slope.
 template <typename T>
 struct Gelu {
@@ -87,6 +139,10 @@ inline Doubles each(Doubles x, const Function& function) {
     Doubles out = x;
     for (std::ptrdiff_t i = 0; i < lanes<double>; ++i) out[i] = function(x[i]);
     return out;
+}
+
+inline Doubles root(Doubles x) {
+    return each(x, [](double v) { return std::sqrt(v); });
 }
 
 inline Doubles exponential(Doubles x) {

@@ -39,6 +39,31 @@ TEST(RandomKernel, IsPhilox) {
     for (const auto count : by_place) EXPECT_NEAR(static_cast<double>(count), 1250, 5.5 * 35);
 }
 
+TEST(RandomKernel, NormalNumbersAreBoxAndMullersOfItsWords) {
+    const cpu::RandomPlace place{5, 77, 2};
+    constexpr std::int64_t count = 150;
+    std::vector<float> values(2 * count);
+    cpu::normal_numbers(place, 8, 2, count, values.data(), 1);
+    for (std::int64_t s = 0; s < 2; ++s)
+        for (std::int64_t i = 0; i < count; ++i) {
+            const auto lane = static_cast<std::uint32_t>(i % 16),
+                       half = static_cast<std::uint32_t>(i / 32 % 2);
+            const auto words = cpu::random_words(place, static_cast<std::uint64_t>(8 + s),
+                                                 static_cast<std::uint32_t>(i / 64 * 16) + lane);
+            const auto portion = [&](std::size_t w) { return ((words[2 * half + w] >> 8) + 1) * 0x1p-24; };
+            const double radius = std::sqrt(-2 * std::log(portion(0))), angle = 2 * M_PI * portion(1);
+            const double expected = radius * (i % 32 < 16 ? std::cos(angle) : std::sin(angle));
+            // float's 24 bits in a logarithm, a root and a sine; an angle near a whole turn has few of them
+            EXPECT_NEAR(values[static_cast<std::size_t>(s * count + i)], expected, 2e-6 * (1 + radius)) << i;
+        }
+}
+
+TEST(Prior, AShorterDrawIsTheBeginningOfALonger) {
+    const Prior prior(settings(9), 3);
+    const auto longer = prior.draw(1, 4, 40), shorter = prior.draw(1, 4, 25);
+    EXPECT_LT((longer.slice(2, 0, 25) - shorter).abs().max().item<double>(), 1e-5);
+}
+
 TEST(Prior, DrawsHaveTheCovarianceOfTheirChannel) {
     const Prior prior(settings(12), 5);
     constexpr std::int64_t frames = 30, count = 4000;

@@ -1,0 +1,155 @@
+// actformer bench train: seconds a step of the discriminator and of the generator, and where they go; seconds for motions. All
+// beside eager PyTorch with the same networks, in the same run and on as many threads.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/bench.hpp"
+#include "kernels/error.hpp"
+#include "model/actformer/speed.hpp"
+
+namespace actformer::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+    model::SpeedRequest request{2, 26, 60, 64, 2};
+    std::string peers, python = "/usr/bin/python3";
+    int rounds = 3;
+    bool json = false;
+};
+
+/// Seconds: a discriminator's step, a generator's, 100 motions.
+using Times = std::array<double, 3>;
+constexpr std::array<const char*, 3> names{"discriminator step", "generator step", "9,400 motions"};
+constexpr std::array<double, 3> shown_times{1, 1, 94};
+
+/// The peer's three times, its own best of three; none where it cannot run.
+std::optional<Times> ask_peer(const Options& options) {
+    const auto program = fs::path(options.peers) / "actformer_speed.py";
+    if (!fs::exists(program))
+        throw Error("{}: holds no actformer_speed.py; --peers names the folder of the reference programs",
+                    options.peers);
+    const auto& r = options.request;
+    const auto line = fmt::format(
+        "OMP_NUM_THREADS={} '{}' '{}' --persons {} --classes {} --frames {} --batch {} --repeats 3",
+        r.threads, options.python, program.string(), r.persons, r.classes, r.frames, r.batch);
+    FILE* pipe = ::popen(line.c_str(), "r");
+    if (!pipe) return {};
+    std::array<char, 256> text{};
+    std::string last;
+    while (std::fgets(text.data(), text.size(), pipe)) last = text.data();
+    Times times{};
+    const bool told = std::sscanf(last.c_str(), "%lf %lf %lf", &times[0], &times[1], &times[2]) == 3;
+    if (::pclose(pipe) != 0 || !told) return {};
+    return times;
+}
+
+struct Result {
+    std::array<const model::StepTime*, 3> ours{};
+    std::optional<Times> peer;
+    std::string machine;
+};
+
+void print_layers(const model::StepTime& step, const char* name) {
+    fmt::print("\nmilliseconds a {}: {:.1f}\n  {:<32} {:>9} {:>9}\n", name, 1e3 * step.seconds, "layer",
+               "forward", "backward");
+    double left = 1e3 * step.seconds;
+    for (const auto& layer : step.layers) {
+        fmt::print("  {:<32} {:>9.2f} {:>9.2f}\n", layer.layer, layer.forward, layer.backward);
+        left -= layer.forward + layer.backward;
+    }
+    fmt::print("  {:<32} {:>9.2f}\n", "the rest", left);
+}
+
+void print_text(const Result& result, const Options& options) {
+    const auto& r = options.request;
+    fmt::print("{}\n{} persons, {} classes, {} frames, batches of {}\n", result.machine, r.persons, r.classes,
+               r.frames, r.batch);
+    fmt::print("{:<20} {:>10} {:>15} {:>7}\n", "seconds", "actformer", "PyTorch, eager", "ratio");
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const double ours = shown_times[i] * result.ours[i]->seconds;
+        if (result.peer)
+            fmt::print("{:<20} {:>10.3f} {:>15.3f} {:>7.2f}\n", names[i], ours,
+                       shown_times[i] * (*result.peer)[i], shown_times[i] * (*result.peer)[i] / ours);
+        else
+            fmt::print("{:<20} {:>10.3f} {:>15}\n", names[i], ours, "not measured");
+    }
+    if (!result.peer)
+        fmt::print("name the folder of the reference programs with --peers; they need python3-torch\n");
+    print_layers(*result.ours[0], "discriminator step");
+    print_layers(*result.ours[1], "generator step");
+    print_layers(*result.ours[2], "hundred motions");
+}
+
+void print_json(const Result& result, const Options& options) {
+    const auto& r = options.request;
+    Json out{{"machine", result.machine}, {"persons", r.persons}, {"classes", r.classes},
+             {"frames", r.frames},        {"batch", r.batch},     {"threads", r.threads}};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        auto& line = out[names[i]];
+        line["seconds"] = shown_times[i] * result.ours[i]->seconds;
+        if (result.peer) {
+            line["pytorch"] = shown_times[i] * (*result.peer)[i];
+            line["ratio"] = (*result.peer)[i] / result.ours[i]->seconds;
+        }
+        for (const auto& layer : result.ours[i]->layers)
+            line["milliseconds"][layer.layer] = {{"forward", layer.forward}, {"backward", layer.backward}};
+    }
+    fmt::print("{}\n", out.dump(2));
+}
+
+/// The program and its peer take turns, so that a busy machine disturbs them alike; each keeps its best.
+void run(const Options& options) {
+    model::SpeedTest test(options.request);
+    Result result;
+    for (int turn = 0; turn < (options.peers.empty() ? 1 : 2); ++turn) {
+        test.run(options.rounds);
+        if (options.peers.empty()) break;
+        const auto now = ask_peer(options);
+        if (!now) break;
+        if (!result.peer) result.peer = now;
+        for (std::size_t i = 0; i < now->size(); ++i)
+            (*result.peer)[i] = std::min((*result.peer)[i], (*now)[i]);
+    }
+    result.ours = {&test.discriminator_step(), &test.generator_step(), &test.generation()};
+    result.machine = test.machine();
+    options.json ? print_json(result, options) : print_text(result, options);
+}
+
+}  // namespace
+
+void add_bench_train(CLI::App& bench) {
+    auto options = std::make_shared<Options>();
+    auto* command =
+        bench.add_subcommand("train", "ActFormer's training and generation, beside eager PyTorch");
+    const auto number = [&](const char* name, std::uint32_t& to, const char* what, std::uint32_t least,
+                            std::uint32_t most) {
+        command->add_option(name, to, what)->check(CLI::Range(least, most))->capture_default_str();
+    };
+    number("--persons", options->request.persons, "Persons of a motion", 1, 16);
+    number("--classes", options->request.classes, "Classes", 1, 100'000);
+    number("--frames", options->request.frames, "Frames of a motion", 16, 4096);
+    number("--batch", options->request.batch, "Motions of a step", 1, 65536);
+    command->add_option("--threads", options->request.threads, "Processor threads, the peer's too")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    command->add_option("--rounds", options->rounds, "Runs a turn of which the best counts")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    command->add_option("--peers", options->peers, "Folder of the reference program actformer_speed.py");
+    command->add_option("--python", options->python, "Python that has torch")->capture_default_str();
+    command->add_flag("--json", options->json, "Print JSON");
+    examples(command,
+             "  actformer bench train\n"
+             "  actformer bench train --peers ../shared/reference --threads 2\n");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace actformer::cli
