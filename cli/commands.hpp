@@ -14,6 +14,7 @@ void add_render(CLI::App& app);
 void add_features(CLI::App& app);
 void add_score(CLI::App& app);
 void add_sweep(CLI::App& app);
+void add_report(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_train(CLI::App& app);
 void add_train_generator(CLI::App& train);

@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
         add_features(app);
         add_score(app);
         add_sweep(app);
+        add_report(app);
         for (const auto& sub : subprograms)
             if (std::filesystem::exists(path_of(sub))) app.add_subcommand(sub.command, sub.description);
         add_bench(app);

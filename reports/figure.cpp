@@ -62,7 +62,7 @@ Figure figure_of(const ingest::Motion& motion, const ingest::Topology& topology,
     if (bone_length.size() != std::size_t{motion.persons} * motion.joints)
         throw Error("{}: {} limb lengths for {} persons of {} joints", motion.name, bone_length.size(),
                     motion.persons, motion.joints);
-    Figure figure{std::move(title), topology, motion.persons, motion.frames, fps, {}, {}};
+    Figure figure{std::move(title), topology, motion.persons, motion.frames, fps, {}, {}, {}};
     figure.joints = ingest::joint_positions(motion, topology, bone_length);
     check(figure);
     return figure;
@@ -74,7 +74,7 @@ Figure figure_of(const ingest::SkeletonFile& file, std::string title) {
                k = static_cast<std::uint32_t>(topology.joints());
     const std::size_t bodies = std::size_t{file.frames} * persons;
     Figure figure{
-        std::move(title), topology, persons, file.frames, 30, {}, std::vector<std::uint8_t>(bodies, 0)};
+        std::move(title), topology, persons, file.frames, 30, {}, std::vector<std::uint8_t>(bodies, 0), {}};
     figure.joints.resize(bodies * k * 3);
     const std::vector<float> whole(k, 1.0F);  // raw limbs have their lengths still
     for (std::uint32_t p = 0; p < persons; ++p) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Figure {
     double fps = 30;
     std::vector<float> joints;
     std::vector<std::uint8_t> seen;  ///< (frames, persons), 0 where a body is not there; empty: always there
+    std::optional<std::uint32_t> label;  ///< its class, where that is known
 
     const float* at(std::size_t frame, std::size_t person, std::size_t joint) const {
         return &joints[((frame * persons + person) * topology.joints() + joint) * 3];

@@ -103,8 +103,10 @@ std::vector<std::size_t> picks_of(const ingest::Dataset& dataset, const Wanted& 
 Figure figure_of_clip(const ingest::Dataset& dataset, std::size_t clip) {
     const auto& header = dataset.header();
     const auto& entry = dataset.clips()[clip];
-    return figure_of(dataset.motion(clip), header.topology, dataset.bone_length(clip), header.fps,
-                     title_of(entry.name, entry.label, header.classes));
+    auto figure = figure_of(dataset.motion(clip), header.topology, dataset.bone_length(clip), header.fps,
+                            title_of(entry.name, entry.label, header.classes));
+    figure.label = entry.label;
+    return figure;
 }
 
 std::vector<Figure> figures_by_name(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
@@ -222,8 +224,10 @@ std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wante
     std::vector<Figure> figures;
     for (const auto i : picks) {
         const auto motion = file.read(names[i]);
+        const auto label = label_of(names[i], drawn);
         figures.push_back(figure_of(motion, subjects.topology, drawn.lengths(motion.persons), subjects.fps,
-                                    title_of(names[i], label_of(names[i], drawn), subjects.classes)));
+                                    title_of(names[i], label, subjects.classes)));
+        figures.back().label = label;
     }
     return figures;
 }

@@ -78,6 +78,13 @@ Json run_json(const PlannedRun& run, const JobStatus& status) {
     return out;
 }
 
+/// Where a dataset comes from.
+Json data_json(const SweepDataset& data) {
+    if (data.clips > 0) return {{"synthetic", data.clips}, {"seed", data.seed}};
+    if (!data.raw.empty()) return {{"raw", data.raw}};
+    return {{"path", data.path}};
+}
+
 }  // namespace
 
 fs::path folder_of(const fs::path& out, const Job& job) {
@@ -115,6 +122,7 @@ nlohmann::ordered_json results(const Sweep& sweep, const Plan& plan, const fs::p
         if (any_failed) one["why"] = why;
         one["fills"] = row.fills;
         one["dataset"] = row.data;
+        one["data"] = data_json(sweep.datasets.at(row.data));
         one["split"] = row.split;
         one["settings"] = row.set;
         one["runs"] = runs;

@@ -3,7 +3,8 @@
 //   OUT/results.json            written anew whenever a job ends, whole or not at all; what a report is made of:
 //     {"format": 1, "sweep": name, "version": .., "rows": [
 //        {"name", "status": "done" | "failed" | "waiting", "why": of a failure,
-//         "fills": ["table3/full/NTU-1P", ..], "dataset": the sweep's name of it, "split", "settings": {key: value},
+//         "fills": ["table3/full/NTU-1P", ..], "dataset": the sweep's name of it, "data": {"synthetic":
+//         clips, "seed"} or {"raw": [files]} or {"path"}, "split", "settings": {key: value},
 //         "runs": [{"seed", "status", "why", "scores", "features": folder of real.h5 and generated.h5, "motions", "run":
 //                   folder of the training (config.yaml, log.jsonl), "recogniser": run folder or weights,
 //                   "dataset": folder}]}]}

@@ -45,10 +45,10 @@ Node joined_settings(const Node& below, const Node& above) {
 
 void lay_over(Entry& entry, const std::string& key, const Node& value) {
     const auto found = entry.find(key);
-    if (key == "set" && found != entry.end() && found->second.IsMap() && value.IsMap())
-        found->second = joined_settings(found->second, value);
-    else
-        entry.insert_or_assign(key, value);
+    const bool joins = key == "set" && found != entry.end() && found->second.IsMap() && value.IsMap();
+    const auto node = joins ? joined_settings(found->second, value) : value;
+    entry.erase(key);  // to assign to a node would change it in all entries that share it
+    entry.emplace(key, node);
 }
 
 /// One section's entries with `like` resolved.

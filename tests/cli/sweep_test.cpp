@@ -122,6 +122,21 @@ TEST_F(Sweep, TrainsEverySeed) {
     EXPECT_EQ(results()["rows"][0]["runs"].size(), 3U);
 }
 
+TEST_F(Sweep, RowsLeaveWhatTheyAreLikeAlone) {
+    sweep_file(
+        "  full: {fills: [table3/full/NTU-1P]}\n"
+        "  gaussian: {like: full, set: {prior: gaussian}}\n"
+        "  pairs: {data: two, config: other.yaml, set: {pe: fixed}}\n"
+        "  last: {like: full, set: {pe: tiled}}\n");
+    write_file(dir / "other.yaml", "model: generator\nwidth: 32\n");
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(calls_of("epochs=5 pe=tiled seed=0"), 1);
+    EXPECT_EQ(calls_of("epochs=5 pe=fixed seed=0"), 1);
+    EXPECT_EQ(calls_of("epochs=5 prior=gaussian seed=0"), 1);
+    EXPECT_EQ(calls_of("other.yaml"), 1);
+    EXPECT_EQ(results()["rows"][3]["dataset"], "one");
+}
+
 TEST_F(Sweep, ARowThatFailsStopsNoOther) {
     sweep_file(two_rows);
     write_file(dir / "broken", "prior=gaussian");

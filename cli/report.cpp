@@ -1,0 +1,82 @@
+// actformer report: Tables 1 to 5 and all that stands behind them, as one HTML file.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/format.hpp"
+#include "ingest/file.hpp"
+#include "ingest/text/printable.hpp"
+#include "kernels/error.hpp"
+#include "reports/report/exports.hpp"
+#include "reports/report/page.hpp"
+
+namespace actformer::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+    std::vector<fs::path> folders;
+    fs::path out, csv, latex;
+    std::string title = "ActFormer, measured";
+    double motion_megabytes = 12;
+    bool json = false;
+};
+
+std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
+    std::size_t cells = 0;
+    for (const auto& table : tables)
+        for (const auto& row : table.rows)
+            for (const auto& group : row)
+                for (const auto& figures : group.figures) cells += figures.measured.has_value();
+    return cells;
+}
+
+void run(const Options& options) {
+    auto measured = reports::read_measured(options.folders);
+    const auto tables = reports::fill_tables(measured);
+    if (!options.out.empty()) {
+        const reports::DetailOptions details{static_cast<std::size_t>(1e6 * options.motion_megabytes)};
+        const auto data = reports::details(measured, details);
+        const auto html = reports::page(options.title, tables, measured.notices, data);
+        ingest::write_whole(options.out, html);
+        fmt::print(stderr, "{}: {} measured in {}, {}\n", options.out.string(),
+                   counted(measured_cells(tables), "figure"), counted(measured.rows.size(), "row"),
+                   bytes(html.size()));
+    }
+    if (!options.csv.empty()) ingest::write_whole(options.csv, reports::to_csv(tables));
+    if (!options.latex.empty()) ingest::write_whole(options.latex, reports::to_latex(tables));
+    for (const auto& notice : measured.notices) fmt::print(stderr, "notice: {}\n", ingest::printable(notice));
+    if (options.json) fmt::print("{}\n", reports::to_json(tables, measured.notices).dump(2));
+}
+
+}  // namespace
+
+void add_report(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    auto* command =
+        app.add_subcommand("report", "Write Tables 1-5, curves, scores and motions as one HTML file");
+    command->add_option("folders", options->folders, "Folders that `actformer sweep` wrote")->required();
+    command->add_option("-o,--out", options->out, "The HTML file");
+    command->add_option("--csv", options->csv, "The tables as comma-separated values, one line a figure");
+    command->add_option("--latex", options->latex, "The tables for a paper");
+    command->add_option("--title", options->title, "The page's title")->capture_default_str();
+    command
+        ->add_option("--motion-megabytes", options->motion_megabytes,
+                     "What the motions may add to the page, MB")
+        ->check(CLI::Range(0.0, 1000.0))
+        ->capture_default_str();
+    command->add_flag("--json", options->json, "Print the tables as JSON");
+    examples(command,
+             "  actformer report out/mini -o report.html\n"
+             "  actformer report out/table3 out/table4 -o report.html --csv tables.csv --latex tables.tex\n"
+             "  actformer report out/mini --json");
+    command->callback([options] {
+        if (options->out.empty() && options->csv.empty() && options->latex.empty() && !options->json)
+            throw Error("nothing to write: give -o report.html, --csv FILE, --latex FILE or --json");
+        run(*options);
+    });
+}
+
+}  // namespace actformer::cli

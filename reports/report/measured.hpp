@@ -1,0 +1,42 @@
+// What sweeps have measured, read back from their folders (reports/sweep/results.hpp says how they lie there).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace actformer::reports {
+
+/// One seed of a row. Whole paths; empty where the sweep names none. What they name may have gone since.
+struct MeasuredRun {
+    std::uint64_t seed = 0;
+    std::string status, why;  ///< "done", "failed", "running" or "waiting"; why of a failure
+    std::filesystem::path scores, features, motions, run, recogniser, dataset;
+    nlohmann::ordered_json
+        scored;  ///< what `actformer score` wrote; null unless the run is done and it can be read
+};
+
+struct MeasuredRow {
+    std::string sweep, name, status, why;
+    std::vector<std::string> fills;  ///< cells, see find_cell()
+    std::string dataset, split;
+    std::string data;                 ///< in plain words, what `dataset` is
+    nlohmann::ordered_json settings;  ///< key: value, as the sweep file has them
+    std::vector<MeasuredRun> runs;
+
+    /// The run that stands for the row where only one can be shown; null where none has scores.
+    const MeasuredRun* shown() const;
+};
+
+struct Measured {
+    std::vector<MeasuredRow> rows;
+    std::vector<std::string> notices;  ///< what is missing or cannot be read, a line each
+};
+
+/// Reads OUT/results.json of every folder and the scores that it names. Throws Error for a folder without results, and for results
+/// that are damaged or of another format; scores that are missing or damaged become notices.
+Measured read_measured(const std::vector<std::filesystem::path>& folders);
+
+}  // namespace actformer::reports
