@@ -177,7 +177,7 @@ const charts = (() => {
     const value = entry[column.key];
     const cell = html("td", {});
     if (!data.present(value)) return fill(cell, { class: "none" }, ["–"]);
-    const track = html("span", { class: "track" }), bar = html("span", { class: `bar bar-${column.name}` });
+    const track = html("span", { class: "track" }), bar = html("span", { class: `fill fill-${column.name}` });
     track.style.setProperty("--steps", column.marks.length - 1);
     bar.style.width = `${(100 * value) / column.end}%`;
     track.append(bar);

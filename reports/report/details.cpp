@@ -29,6 +29,12 @@ Json member(const Json& object, const char* key) {
     return object.is_object() && object.contains(key) ? object[key] : Json();
 }
 
+/// The member where it is a list; else an empty one.
+Json list(const Json& object, const char* key) {
+    const auto found = member(object, key);
+    return found.is_array() ? found : Json::array();
+}
+
 /// The classes of a row that have anything to show, and their places among them.
 struct Classes {
     std::vector<std::uint32_t> labels;
@@ -51,7 +57,7 @@ bool is_matrix(const Json& confusion, std::size_t n) {
 /// Those with samples on a side, or that samples were taken for.
 Classes classes_of(const Json& scored) {
     Classes out;
-    const auto all = member(scored, "per_class"), confusion = member(scored, "confusion");
+    const auto all = list(scored, "per_class"), confusion = member(scored, "confusion");
     const bool matrix = is_matrix(confusion, all.size());
     const auto count = [](const Json& one, const char* key) {
         const auto value = member(one, key);
@@ -90,7 +96,7 @@ Json per_class(const Json& scored, const Classes& classes) {
 
 Json confusion_of(const Json& scored, const Classes& classes) {
     const auto all = member(scored, "confusion");
-    if (!is_matrix(all, member(scored, "per_class").size())) return {};
+    if (!is_matrix(all, list(scored, "per_class").size())) return {};
     Json out = Json::array();
     for (const auto asked : classes.labels) {
         Json row = Json::array();
@@ -110,8 +116,7 @@ void add_scores(Json& row, const Json& scored, const Classes& classes) {
     const auto accuracy = member(member(scored, "real"), "accuracy");
     row["real_accuracy"] = accuracy.is_number() ? Json(100 * accuracy.get<double>()) : Json();
     row["floor"] = member(scored, "floor");
-    const auto warnings = member(scored, "warnings");
-    row["warnings"] = warnings.is_array() ? warnings : Json::array();
+    row["warnings"] = list(scored, "warnings");
     row["per_class"] = per_class(scored, classes);
     row["confusion"] = confusion_of(scored, classes);
 }

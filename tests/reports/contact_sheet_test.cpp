@@ -71,7 +71,7 @@ TEST(Stage, PersonsHaveTheirColours) {
 
 TEST(Stage, NearLimbsHideFarOnes) {
     // Two bars, one behind the other, and no names to go by: the second person stands nearer.
-    Figure figure{"bars", {{"a", "b"}, {-1, 0}}, 2, 1, 30, {-1, 1, 0, 1, 1, 0, -1, 1, 1, 1, 1, 1}, {}};
+    Figure figure{"bars", {{"a", "b"}, {-1, 0}}, 2, 1, 30, {-1, 1, 0, 1, 1, 0, -1, 1, 1, 1, 1, 1}, {}, {}};
     const Stage stage(figure, parse_view("90,0"));  // along the line of persons
     auto cell = blank(200, 200);
     stage.draw(cell, 0);
@@ -94,9 +94,9 @@ TEST(Stage, AbsentBodiesAreNotDrawn) {
 }
 
 TEST(Stage, DrawsAnySkeleton) {
-    const Figure dot{"dot", {{"joint"}, {-1}}, 1, 2, 30, {0, 0, 0, 0, 0, 0}, {}};
+    const Figure dot{"dot", {{"joint"}, {-1}}, 1, 2, 30, {0, 0, 0, 0, 0, 0}, {}, {}};
     const Figure folded{
-        "all in one place", {{"a", "b", "Head"}, {-1, 0, 1}}, 1, 1, 30, std::vector<float>(9, 3.0F), {}};
+        "all in one place", {{"a", "b", "Head"}, {-1, 0, 1}}, 1, 1, 30, std::vector<float>(9, 3.0F), {}, {}};
     for (const auto* figure : {&dot, &folded}) {
         auto cell = blank(60, 80);
         Stage(*figure, {}).draw(cell, 0);

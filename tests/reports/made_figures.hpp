@@ -17,7 +17,7 @@ namespace actformer::reports::testing {
 /// `persons` adults with NTU's joints, 1.2 m apart along x, facing +z (so their left is towards +x), swinging
 /// arms and legs.
 inline Figure walkers(std::uint32_t persons, std::uint32_t frames, double fps = 30) {
-    Figure figure{"walk · S001C001P001R001A001", ingest::ntu25(), persons, frames, fps, {}, {}};
+    Figure figure{"walk · S001C001P001R001A001", ingest::ntu25(), persons, frames, fps, {}, {}, {}};
     const auto lengths = usual_bone_lengths(figure.topology);
     for (std::uint32_t t = 0; t < frames; ++t)
         for (std::uint32_t p = 0; p < persons; ++p) {
