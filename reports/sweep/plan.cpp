@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "ingest/checksum.hpp"
 #include "ingest/dataset.hpp"
@@ -30,13 +31,19 @@ double number_in(const Settings& set, const char* key, double otherwise) {
     return value;
 }
 
-/// 0 where the configuration does not tell.
-double epochs_in(const fs::path& config) {
+/// What the configuration tells, unless `set` says it; else `otherwise`.
+double number_in(const Settings& set, const fs::path& config, const char* key, double otherwise) {
     try {
-        return YAML::LoadFile(config.string())["epochs"].as<double>(0);
+        otherwise = YAML::LoadFile(config.string())[key].as<double>(otherwise);
     } catch (const YAML::Exception&) {
-        return 0;
     }
+    return number_in(set, key, otherwise);
+}
+
+/// Windows a second that trainings of each kind were seen to take on two cores, by the width of their networks.
+double training_pace(const std::string& kind, const Settings& set, const fs::path& config) {
+    if (kind == "generator") return 200 * std::pow(200 / number_in(set, config, "width", 200), 1.5);
+    return 17 * std::pow(number_in(set, config, "width", 1), -1.67);
 }
 
 /// Builds the jobs one after another; the same work asked for again is the same job.
@@ -118,6 +125,7 @@ class Planner {
             job.commands.push_back(synth);
             ingest.emplace_back("{job}/raw");
             job.work = static_cast<double>(d.clips);
+            job.pace = 300;  // written as text first
         }
         for (const auto& raw : d.raw) ingest.push_back(found(raw, job));
         ingest.insert(ingest.end(), {"-o", "{job}/data"});
@@ -141,7 +149,8 @@ class Planner {
         auto& words = job.commands[0];
         words.insert(words.end(), {"-c", with_contents(config, job), "--data", data.path, "-o", "{job}/run"});
         for (const auto& [key, value] : set) words.push_back(key + "=" + value);
-        job.work = number_in(set, "epochs", epochs_in(words[4])) * data.clips;
+        job.work = number_in(set, words[4], "epochs", 0) * data.clips / 2;  // a protocol trains on about half
+        job.pace = training_pace(job.kind, set, words[4]);
     }
 
     Made recogniser(const std::string& name) {
@@ -184,6 +193,7 @@ class Planner {
         job.commands = {{"{program}", "generate", "--generator", folder_of(generator) + "/run", "-o",
                          "{job}/motions.h5", "--per-class", "4", "--seed", "0"}};
         job.work = 1;
+        job.pace = 0.5;
         return add(std::move(job));
     }
 
@@ -220,6 +230,7 @@ class Planner {
             words.insert(words.end(), {"-o", "{job}/scores.json", "--keep-features", "{job}/features"});
             job.commands = {words};
             job.work = static_cast<double>(row.repeats * row.per_class);
+            job.pace = 10;  // of each of some tens of classes
             run.score = add(std::move(job));
             run.scores = folder_of(run.score) + "/scores.json";
             run.features = folder_of(run.score) + "/features";

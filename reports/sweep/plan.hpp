@@ -16,6 +16,7 @@ struct Job {
     std::vector<std::size_t> needs;  ///< jobs that must be done before, each earlier in the list
     std::string problem;             ///< not empty: it cannot be done, and why
     double work = 0;  ///< what its time grows with: clips, clips times epochs, motions; 0: not known
+    double pace = 0;  ///< of that, about, in a second of two cores; 0: not known
 };
 
 /// One seed of a row. Paths are within the sweep's folder, but for data and weights that were there before.

@@ -151,7 +151,8 @@ std::optional<double> estimate(const Plan& plan, const std::vector<JobStatus>& s
         }
     if (jobs > 0 && work > 0 && asked.work > 0) return seconds / work * asked.work;
     if (jobs > 0) return seconds / static_cast<double>(jobs);
-    if (asked.kind == "ingest" && asked.work > 0) return 2 + asked.work / 300;  // written as text first
+    if (asked.work > 0 && asked.pace > 0)
+        return 2 + asked.work / asked.pace;  // a program starts and ends, too
     return {};
 }
 

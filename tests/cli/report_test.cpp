@@ -1,0 +1,140 @@
+// `actformer report` on a sweep of ready motions, and the page in a real browser.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "eval/weights.hpp"
+#include "ingest/dataset.hpp"
+#include "ingest/motions_file.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer;
+using namespace actformer::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A sweep of one dataset of two-person clips and one of single ones, whose "generated" motions are clips of other splits; made
+/// once. One row fails, one has a name that means harm.
+struct Swept {
+    TempDir dir;
+
+    Swept() {
+        run_actformer("synth ntu -o " + at("raw") + " --clips 80 --actions 1-4,50-52");
+        run_actformer("ingest ntu " + at("raw") + " -o " + at("data"));
+        for (const auto* name : {"ntu-1p", "ntu-2p"}) {
+            const ingest::Dataset dataset(dir / "data" / name);
+            const auto classes = static_cast<std::uint32_t>(dataset.header().classes.size());
+            eval::write_weights(
+                dir / (std::string(name) + "-eyes.h5"),
+                eval::random_weights(3 * dataset.header().persons, classes, eval::ntu_edges, 20, 0.125, 1));
+            write_motions(dataset, std::string(name) + ".h5");
+        }
+        write_file(dir / "sweep.yaml", sweep_yaml());
+        run_actformer("sweep " + at("sweep.yaml") + " -o " + at("out"));
+    }
+    std::string at(const std::string& name) const { return (dir / name).string(); }
+
+  private:
+    /// Every clip as a motion of its class, in the public layout with the body that it belongs to.
+    void write_motions(const ingest::Dataset& dataset, const std::string& file) const {
+        ingest::MotionsWriter writer(dir / file);
+        writer.describe(ingest::subjects_of(dataset));
+        for (std::size_t i = 0; i < dataset.clips().size(); ++i)
+            writer.add(fmt::format("A{:03}_{}", dataset.clips()[i].label + 1, i), dataset.motion(i));
+        writer.finish();
+    }
+    std::string sweep_yaml() const {
+        return fmt::format(
+            "name: \"<b>mini</b>\"\n"
+            "datasets:\n"
+            "  one: {{path: {0}/ntu-1p}}\n"
+            "  two: {{path: {0}/ntu-2p}}\n"
+            "recognisers:\n"
+            "  eyes: {{weights: {1}}}\n"
+            "  four eyes: {{weights: {2}}}\n"
+            "base: {{data: one, recogniser: eyes, motions: [{3}], split: all}}\n"
+            "rows:\n"
+            "  full: {{fills: [table1/ActFormer/NTU-1P, table3/full/NTU-1P]}}\n"
+            "  \"</script><script>window.hostile = 1</script>\": {{fills: [table3/fixed PE/NTU-1P]}}\n"
+            "  pairs: {{data: two, recogniser: four eyes, single_recogniser: eyes, motions: [{4}], fills: "
+            "[table2/ActFormer/NTU-2P]}}\n"
+            "  lost: {{motions: [nowhere.h5], fills: [table3/Gaussian prior/NTU-1P]}}\n",
+            at("data"), at("ntu-1p-eyes.h5"), at("ntu-2p-eyes.h5"), at("ntu-1p.h5"), at("ntu-2p.h5"));
+    }
+};
+
+const Swept& swept() {
+    static const Swept once;
+    return once;
+}
+
+struct ReportPage : testing::Test {
+    TempDir dir;
+    std::string at(const std::string& name) const { return (dir / name).string(); }
+    CommandResult report(const std::string& arguments) const {
+        return run_actformer("report " + swept().at("out") + " " + arguments);
+    }
+};
+
+}  // namespace
+
+TEST_F(ReportPage, SameInputsGiveTheSameBytes) {
+    const auto result = report("-o " + at("a.html"));
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("11 figures measured in 4 rows"), std::string::npos)
+        << "3 + 3 + 5 cells: " << result.output;
+    ASSERT_EQ(report("-o " + at("b.html")).exit, 0);
+    EXPECT_EQ(read_file(dir / "a.html"), read_file(dir / "b.html"));
+}
+
+TEST_F(ReportPage, TablesComeInEveryForm) {
+    const auto result = report("--json --csv " + at("t.csv") + " --latex " + at("t.tex") + " 2>/dev/null");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    const auto json = nlohmann::json::parse(result.output);
+    const auto& full = json["tables"][2]["rows"][3]["groups"][0];
+    EXPECT_EQ(full["state"], "measured");
+    EXPECT_GE(full["metrics"]["fid_mean"]["mean"].get<double>(), 0);
+    EXPECT_NE(read_file(dir / "t.csv").find("table3,full,NTU-1P,accuracy,measured,"), std::string::npos);
+    EXPECT_NE(read_file(dir / "t.csv").find("table3,Gaussian prior,NTU-1P,accuracy,failed,,,0,"),
+              std::string::npos);
+    EXPECT_NE(read_file(dir / "t.tex").find("\\textbf{"), std::string::npos);
+}
+
+TEST_F(ReportPage, WhatIsMissingIsToldAndTheRestIsShown) {
+    fs::copy(swept().at("out"), dir / "out", fs::copy_options::recursive);
+    for (const auto& entry : fs::recursive_directory_iterator(dir / "out"))
+        if (entry.path().filename() == "generated.h5")
+            fs::resize_file(entry.path(), fs::file_size(entry.path()) / 2);
+    const auto result = run_actformer("report " + at("out") + " -o " + at("r.html"));
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("notice: full: no features to show"), std::string::npos) << result.output;
+    EXPECT_NE(read_file(dir / "r.html").find("no features to show"), std::string::npos);
+}
+
+TEST_F(ReportPage, StaysSmallHoweverManyMotions) {
+    ASSERT_EQ(report("-o " + at("all.html")).exit, 0);
+    ASSERT_EQ(report("-o " + at("few.html") + " --motion-megabytes 0.2").exit, 0);
+    EXPECT_LT(fs::file_size(dir / "few.html") + 300'000, fs::file_size(dir / "all.html"));
+}
+
+TEST_F(ReportPage, RefusesWhatIsNoSweepAndSaysWhy) {
+    expect_refused(run_actformer("report " + at("none") + " -o " + at("r.html")),
+                   {"none", "no results.json", "actformer sweep"});
+    write_file(dir / "cut/results.json", "{\"rows\": [");
+    expect_refused(run_actformer("report " + at("cut") + " -o " + at("r.html")), {"results.json", "damaged"});
+    expect_refused(report(""), {"nothing to write"});
+    expect_refused(report("-o " + at("no/such/folder/r.html")), {"no/such/folder"});
+    EXPECT_FALSE(fs::exists(dir / "r.html"));
+}
+
+TEST_F(ReportPage, WorksInABrowser) {
+    ASSERT_EQ(report("-o " + at("r.html")).exit, 0);
+    const auto result = run_command(
+        "/usr/bin/python3 " ACTFORMER_SOURCE "/tests/reports/browser/report_test.py " + at("r.html"));
+    if (result.exit == 77) GTEST_SKIP() << result.output;
+    EXPECT_EQ(result.exit, 0) << result.output;
+}
