@@ -1,0 +1,201 @@
+// Ties the page together: one chosen run and one chosen action drive every panel.
+const byId = (id) => document.getElementById(id);
+const { html, missing } = charts;
+const report = JSON.parse(byId("data").textContent);
+
+const MOST = 4;  // motions a band
+const METRICS = [
+  { key: "accuracy", name: "Accuracy", unit: " %" },
+  { key: "fid_mean", name: "FID, mean of actions" }, { key: "fid_whole", name: "FID, whole set" },
+  { key: "fida_mean", name: "FID-a, mean of actions" }, { key: "fida_whole", name: "FID-a, whole set" },
+  { key: "diversity", name: "Diversity" }, { key: "multimodality", name: "Multimodality" },
+];
+const chosen = { run: 0, action: -1 };
+const row = () => report.rows[chosen.run];
+/** Pixels across an element; a page opened in the background has none yet, and is drawn again when it has. */
+const widthOf = (element) => Math.max(280, element.clientWidth);
+
+// --- Run: its name, scores and warnings -----------------------------------------------------------
+
+/** A figure with what to compare it with: real motions' accuracy, or the floor of real against real. */
+function scoreItem({ key, name, unit = "" }, { scores, floor, real_accuracy: real }) {
+  if (!data.present(scores?.[key])) return null;
+  const against = key === "accuracy" ? real : floor?.[key];
+  const note = data.present(against) ? `${key === "accuracy" ? "real" : "floor"} ${data.figure(against)}${unit}` : "";
+  return html("div", {}, html("dt", {}, name),
+    html("dd", {}, data.figure(scores[key]) + unit, html("small", {}, note)));
+}
+
+const STATES = { failed: "This run failed", waiting: "This run is not finished" };
+
+function showRun() {
+  const run = row();
+  byId("run-name").textContent = run.name;
+  byId("fills").textContent = (run.fills?.length ? `Fills ${run.fills.join("; ")}.` : "Fills no cell of the tables.") +
+    (run.sweep ? ` Sweep ${run.sweep}.` : "");
+  byId("scores").replaceChildren(...METRICS.map((metric) => scoreItem(metric, run)).filter(Boolean));
+  const state = STATES[run.status];
+  byId("warnings").replaceChildren(
+    ...(state ? [html("p", { class: run.status }, run.why ? `${state}: ${run.why}` : `${state}.`)] : []),
+    ...(run.warnings ?? []).map((words) => html("p", { class: "warning" }, words)));
+}
+
+// --- Motions --------------------------------------------------------------------------------------
+
+const actionName = (action) => (action < 0 ? "all actions" : row().classes?.[action] ?? `class ${action}`);
+
+function showMotions() {
+  const found = data.motionsOf(report, row(), chosen.action, MOST);
+  const figures = (motions) => motions.map((m) => viewer.makeFigure(m, found.topology));
+  const some = Boolean(found && found.real.length + found.generated.length);
+  byId("stage").hidden = !some;
+  byId("motions-missing").hidden = some;
+  byId("motions-action").textContent = actionName(chosen.action);
+  if (!some) {
+    byId("motions-missing").textContent = found ? "No motion of this action was kept." : "No motions were kept for this run.";
+    return;
+  }
+  theViewer.show([
+    { name: "Real", figures: figures(found.real), empty: "no real motion of this action in the report" },
+    { name: "Generated", figures: figures(found.generated), empty: "no generated motion of this action in the report" },
+  ], `${found.real.length} real and ${found.generated.length} generated motions of ${actionName(chosen.action)}`);
+}
+
+// --- Charts ---------------------------------------------------------------------------------------
+
+function showBars() {
+  const box = byId("bars"), top = box.firstElementChild?.scrollTop ?? 0;
+  box.replaceChildren(charts.bars(row().classes ?? [], row().per_class ?? [], byId("order").value, chosen.action, chooseAction));
+  if (box.firstElementChild) box.firstElementChild.scrollTop = top;
+}
+
+function showConfusion() {
+  byId("matrix").replaceChildren(
+    charts.confusionMatrix(row().classes ?? [], row().confusion, chosen.action, widthOf(byId("matrix"))));
+}
+
+const CURVES = {
+  generator: [
+    { title: "loss", series: [{ key: "discriminator_loss", name: "discriminator", colour: 1 },
+      { key: "generator_loss", name: "generator", colour: 2 }] },
+    { title: "discriminator’s score", series: [{ key: "real_score", name: "of real motions", colour: 4 },
+      { key: "made_score", name: "of generated motions", colour: 2 }] },
+    { title: "accuracy", unit: " %", scale: 100, fromZero: true, series: [{ key: "accuracy", name: "of generated motions", colour: 3 }] },
+    { title: "FID", fromZero: true, series: [{ key: "fid_whole", name: "whole set", colour: 2 }] },
+  ],
+  recogniser: [
+    { title: "loss", series: [{ key: "loss", name: "recogniser", colour: 1 }] },
+    { title: "accuracy", unit: " %", scale: 100, fromZero: true, series: [{ key: "accuracy", name: "recogniser", colour: 3 }] },
+  ],
+};
+
+function showCurves() {
+  const box = byId("curves"), columns = widthOf(box) >= 760 ? 2 : 1, width = (widthOf(box) - 28 * (columns - 1)) / columns;
+  const groups = Object.entries(CURVES).map(([network, panels]) => {
+    const points = row().curves?.[network] ?? [];
+    const drawn = points.length ? panels.map((panel) => charts.curves(points, panel, width)).filter(Boolean) : [];
+    return drawn.length ? html("div", {}, html("h3", {}, `The ${network}`), html("div", { class: "pairs" }, ...drawn)) : null;
+  }).filter(Boolean);
+  box.replaceChildren(...(groups.length ? groups : [missing("No training curves were kept for this run.")]));
+}
+
+function showScatter() {
+  const run = row(), plane = data.present(run.projection) ? report.projections?.[run.projection] : null;
+  const real = plane && data.pointsOf(plane), made = plane && run.points ? data.pointsOf(run.points) : null;
+  byId("scatter").replaceChildren(charts.scatter(real, made, plane?.explained, chosen.action, widthOf(byId("scatter"))));
+}
+
+// --- Choosing -------------------------------------------------------------------------------------
+
+function showAction() {
+  showMotions();
+  showBars();
+  showConfusion();
+  showScatter();
+}
+
+function chooseAction(action) {
+  chosen.action = action;
+  byId("action").value = String(action);
+  showAction();
+}
+
+/** The next action, around through "all". */
+function stepAction(by) {
+  const count = (row().classes?.length ?? 0) + 1;
+  chooseAction(((chosen.action + 1 + by + count) % count) - 1);
+}
+
+const option = (value, words) => html("option", { value }, words);
+
+/** Runs share actions by name, not by number: the choice stays where the next run has it too. */
+function chooseRun(index) {
+  const name = chosen.action < 0 ? null : actionName(chosen.action);
+  chosen.run = index;
+  const classes = row().classes ?? [];
+  byId("action").replaceChildren(option("-1", "all"), ...classes.map((c, i) => option(String(i), c)));
+  showRun();
+  showCurves();
+  chooseAction(name === null ? -1 : classes.indexOf(name));
+}
+
+// --- Page -----------------------------------------------------------------------------------------
+
+function setTheme(theme) {
+  document.documentElement.dataset.theme = theme;
+  for (const button of document.querySelectorAll("[data-set-theme]"))
+    button.setAttribute("aria-pressed", button.dataset.setTheme === theme);
+  theViewer.refresh();
+}
+
+/** Paper is white: the canvas, which no style sheet reaches, is drawn again for it. */
+function listenForPrint() {
+  let before = null;
+  window.addEventListener("beforeprint", () => {
+    before = document.documentElement.dataset.theme;
+    setTheme("light");
+  });
+  window.addEventListener("afterprint", () => before && setTheme(before));
+}
+
+/** Charts are drawn in pixels, so that text keeps its size: again for every new width. */
+function listenForWidth() {
+  let width = widthOf(byId("panels"));
+  new ResizeObserver(() => {
+    if (widthOf(byId("panels")) === width) return;
+    width = widthOf(byId("panels"));
+    theViewer.refresh();
+    showConfusion();
+    showCurves();
+    showScatter();
+  }).observe(byId("panels"));
+}
+
+function listen() {
+  byId("run").addEventListener("change", () => chooseRun(Number(byId("run").value)));
+  byId("action").addEventListener("change", () => chooseAction(Number(byId("action").value)));
+  byId("order").addEventListener("change", showBars);
+  for (const button of document.querySelectorAll("[data-set-theme]"))
+    button.addEventListener("click", () => setTheme(button.dataset.setTheme));
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => theViewer.refresh());
+  document.addEventListener("keydown", (event) => {  // a tip that is in the way goes
+    if (event.key === "Escape" && document.activeElement?.matches("td[tabindex]")) document.activeElement.blur();
+  });
+  listenForPrint();
+  listenForWidth();
+}
+
+const theViewer = new viewer.Viewer({
+  canvas: byId("viewer"), play: byId("play"), scrub: byId("scrub"), frame: byId("frame"),
+  speed: byId("speed"), turn: byId("turn"), reset: byId("reset"),
+}, stepAction);
+
+byId("title").textContent = document.title;
+byId("footer").textContent = `Written by actformer ${report.version}.`;
+if (report.rows.length) {
+  byId("panels").hidden = false;
+  byId("run").replaceChildren(...report.rows.map((r, i) =>
+    option(String(i), r.status === "done" ? r.name : `${r.name} (${r.status === "failed" ? "failed" : "not finished"})`)));
+  listen();
+  chooseRun(0);
+}
