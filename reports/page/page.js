@@ -90,7 +90,9 @@ const CURVES = {
 };
 
 function showCurves() {
-  const box = byId("curves"), columns = widthOf(box) >= 760 ? 2 : 1, width = (widthOf(box) - 28 * (columns - 1)) / columns;
+  const box = byId("curves"), columns = widthOf(box) >= 760 ? 2 : 1, gap = 28;
+  const width = (widthOf(box) - gap * (columns - 1)) / columns;
+  box.style.setProperty("--columns", columns);
   const groups = Object.entries(CURVES).map(([network, panels]) => {
     const points = row().curves?.[network] ?? [];
     const drawn = points.length ? panels.map((panel) => charts.curves(points, panel, width)).filter(Boolean) : [];

@@ -1,7 +1,10 @@
 // The motion viewer: real motions above, generated ones below, in one canvas with one clock and one camera.
 // Limbs are tapered cylinders lit from the upper left, painted from far to near.
 const viewer = (() => {
-  const [MIDDLE, LEFT, RIGHT] = [0, 1, 2];
+  const [MIDDLE, LEFT, RIGHT] = [0, 1, 2];  // sides of joints, and the parts of a body that have a colour each
+  const TRUNK_PART = 3, PARTS = 4;
+
+  const clamp = (v, low, high) => Math.min(high, Math.max(low, v));
 
   // --- Bodies: from joint names and positions to solids -------------------------------------------
 
@@ -70,13 +73,12 @@ const viewer = (() => {
   }
 
   /** Solids of one body, {a, b, part, leaf, ball}, from joint a to joint b; the head is a ball at b. */
-  function solidsOf(tree, roots) {
-    const sided = tree.sides.some((s) => s === LEFT) && tree.sides.some((s) => s === RIGHT);
-    const part = (j) => (sided ? tree.sides[j] : LEFT);
+  function solidsOf(tree, roots, trunk) {
+    const part = (j) => (roots.length < 2 ? LEFT : trunk.has(j) ? TRUNK_PART : tree.sides[j]);
     const solids = tree.order.filter((j) => tree.parents[j] >= 0).map((j) =>
       ({ a: tree.parents[j], b: j, part: part(tree.parents[j]), leaf: !tree.children[j].length, ball: false }));
     // Flanks make the trunk as broad as a chest is, broader than deep.
-    for (const [shoulder, hip] of roots) solids.push({ a: shoulder, b: hip, part: part(tree.order[0]), leaf: false, ball: false });
+    for (const [shoulder, hip] of roots) solids.push({ a: shoulder, b: hip, part: TRUNK_PART, leaf: false, ball: false });
     if (tree.head >= 0 && tree.parents[tree.head] >= 0)
       solids.push({ a: tree.parents[tree.head], b: tree.head, part: part(tree.head), leaf: true, ball: true });
     return solids;
@@ -92,7 +94,7 @@ const viewer = (() => {
 
   // Shares of the body's reach, root to furthest tip, 1.2 m in an adult: toes and fingers, hips and
   // shoulders, neck, trunk, flanks, head.
-  const THIN = 0.017, THICK = 0.041, NECK = 0.036, TRUNK = 0.074, FLANK = 0.054, HEAD = 0.086;
+  const THIN = 0.017, THICK = 0.041, NECK = 0.036, TRUNK = 0.074, FLANK = 0.06, HEAD = 0.086;
 
   /** [radius at a, radius at b] in metres for each solid of one person. */
   function radiiOf(tree, solids, trunk, lengths) {
@@ -186,7 +188,7 @@ const viewer = (() => {
   function makeFigure(motion, topology) {
     const tree = readTopology(topology);
     const people = Array.from({ length: motion.persons }, (_, p) => limbLengths(motion, tree.parents, p));
-    const roots = limbRoots(tree, motion, people[0]), trunk = trunkOf(tree, roots), solids = solidsOf(tree, roots);
+    const roots = limbRoots(tree, motion, people[0]), trunk = trunkOf(tree, roots), solids = solidsOf(tree, roots, trunk);
     const count = solids.length * motion.persons;
     return {
       motion, solids, bounds: boundsOf(motion), front: frontOf(motion, roots),
@@ -225,7 +227,9 @@ const viewer = (() => {
     for (let i = 0; i < order.length; ++i) {
       const solid = solids[i % solids.length], first = Math.floor(i / solids.length) * motion.joints;
       const near = 0.5 * (screen[(first + solid.a) * 3 + 2] + screen[(first + solid.b) * 3 + 2]);
-      nearness[i] = solid.ball ? screen[(first + solid.b) * 3 + 2] : near + 0.3 * radii[2 * i + 1];
+      // A head counts as near as the nearer end of the neck, which would otherwise run over its face.
+      nearness[i] = 0.3 * radii[2 * i + 1] +
+        (solid.ball ? Math.max(screen[(first + solid.a) * 3 + 2], screen[(first + solid.b) * 3 + 2]) : near);
     }
     for (let i = 1; i < order.length; ++i) {
       const moved = order[i];
@@ -237,11 +241,11 @@ const viewer = (() => {
 
   // --- Paint --------------------------------------------------------------------------------------
 
-  // A person's trunk and head, left limbs, right limbs: the colours of `actformer render`.
+  // A person's head and trunk, left limbs, right limbs: the colours of `actformer render`.
   const PEOPLE = [
     ["#39518a", "#2f80ed", "#1fb6a6"], ["#a3431b", "#eb5e28", "#f4a91f"], ["#5b3a8c", "#8b5cf6", "#d75bc0"],
     ["#2c6b3f", "#2fa55a", "#9cc23c"], ["#8a2545", "#d1345b", "#f08a8a"], ["#4a4f59", "#6b7280", "#a3abb8"],
-  ];
+  ].map(([middle, left, right]) => [middle, left, right, middle]);  // in the order of parts
   const LIGHT = { x: -0.42, y: -0.58, z: 0.7 };
   const DEPTHS = 4, TURNS = 9, STOPS = [-1, -0.85, -0.5, -0.15, 0.2, 0.55, 0.85, 1];
 
@@ -256,12 +260,15 @@ const viewer = (() => {
     return colour.map((v) => v * shade + 26 * light ** 5);
   }
 
-  /** Across a limb of radius 1 whose normal at +1 has cosine `across` with the light in the picture's plane. */
-  function limbTone(context, colour, across) {
+  /**
+   * Across a limb of radius 1 whose normal at +1 has cosine `across` with the light in the picture's plane.
+   * The solids of a trunk are `flat`: shaded as one broad body rather than as a bundle of cylinders.
+   */
+  function limbTone(context, colour, across, flat) {
     const tone = context.createLinearGradient(0, -1, 0, 1);
     for (const y of STOPS) {
-      const z = Math.sqrt(1 - y * y);
-      tone.addColorStop((y + 1) / 2, css(lit(colour, y * across + z * LIGHT.z, z)));
+      const bent = flat ? 0.35 * y : y, z = Math.sqrt(1 - bent * bent);
+      tone.addColorStop((y + 1) / 2, css(lit(colour, bent * across + z * LIGHT.z, z)));
     }
     return tone;
   }
@@ -277,14 +284,15 @@ const viewer = (() => {
     const style = getComputedStyle(element), read = (name) => style.getPropertyValue(name).trim();
     const paper = rgb(read("--paper")), sine = Math.hypot(LIGHT.x, LIGHT.y);
     const limbs = [], balls = [], rims = [];
-    for (const colour of PEOPLE.flat().map(rgb)) {
+    PEOPLE.flat().map(rgb).forEach((colour, i) => {
       rims.push(css(mix(colour, [8, 12, 22], 0.72)));
       for (let depth = 0; depth < DEPTHS; ++depth) {
         const hazy = mix(colour, paper, 0.3 * (1 - depth / (DEPTHS - 1)));
         balls.push(ballTone(context, hazy));
-        for (let turn = 0; turn < TURNS; ++turn) limbs.push(limbTone(context, hazy, sine * ((2 * turn) / (TURNS - 1) - 1)));
+        for (let turn = 0; turn < TURNS; ++turn)
+          limbs.push(limbTone(context, hazy, sine * ((2 * turn) / (TURNS - 1) - 1), i % PARTS === TRUNK_PART));
       }
-    }
+    });
     const fading = (name, alpha) => {
       const fade = context.createRadialGradient(0, 0, 0, 0, 0, 1), colour = rgb(read(name));
       for (const [r, share] of [[0, 1], [0.45, 0.85], [1, 0]]) fade.addColorStop(r, css(colour, alpha * share));
@@ -320,8 +328,10 @@ const viewer = (() => {
     // Seen end on, one end hides the other: a cone of no length is the larger ball.
     const long = Math.max(length, Math.abs(ra - rb) + 1e-3) / size;
     context.setTransform(ux * size, uy * size, -uy * size, ux * size, ax, ay);
-    context.fillStyle = paint.rims[Math.floor(tone / DEPTHS)];
-    conePath(context, long, ra / size, rb / size, rim / size, false, solid.leaf);
+    if (solid.part !== TRUNK_PART) {
+      context.fillStyle = paint.rims[Math.floor(tone / DEPTHS)];
+      conePath(context, long, ra / size, rb / size, rim / size, false, solid.leaf);
+    }
     const across = -uy * LIGHT.x + ux * LIGHT.y;  // the normal at +y against the light
     const turn = Math.round(((across / Math.hypot(LIGHT.x, LIGHT.y) + 1) / 2) * (TURNS - 1));
     context.fillStyle = paint.limbs[tone * TURNS + turn];
@@ -341,13 +351,14 @@ const viewer = (() => {
   }
 
   function paintBodies(context, paint, figure, eye) {
-    const { solids, motion, screen, order, nearness, radii, bounds } = figure, rim = Math.max(0.6, 0.007 * eye.scale);
+    const { solids, motion, screen, order, radii, bounds } = figure, rim = Math.max(0.6, 0.007 * eye.scale);
     for (let n = 0; n < order.length; ++n) {
       const i = order[n], solid = solids[i % solids.length], person = Math.floor(i / solids.length);
       const a = (person * motion.joints + solid.a) * 3, b = (person * motion.joints + solid.b) * 3;
-      const share = 0.5 + nearness[i] / (2 * Math.max(bounds.radius, 0.6));
-      const depth = Math.max(0, Math.min(DEPTHS - 1, Math.round(share * (DEPTHS - 1) + 0.5)));
-      const tone = ((person % PEOPLE.length) * 3 + solid.part) * DEPTHS + depth;
+      // The haze of distance is a whole person's: limbs of one body keep one colour.
+      const share = 0.75 + screen[person * motion.joints * 3 + 2] / (2 * bounds.radius + 1);
+      const depth = clamp(Math.round(share * (DEPTHS - 1)), 0, DEPTHS - 1);
+      const tone = ((person % PEOPLE.length) * PARTS + solid.part) * DEPTHS + depth;
       const ra = radii[2 * i] * eye.scale, rb = radii[2 * i + 1] * eye.scale;
       if (solid.ball) paintHead(context, paint, tone, screen[a], screen[a + 1], screen[b], screen[b + 1], rb, rim);
       else paintLimb(context, paint, tone, solid, screen[a], screen[a + 1], ra, screen[b], screen[b + 1], rb, rim);
@@ -364,8 +375,8 @@ const viewer = (() => {
 
   const SPACING = 0.5;  // metres between the lines of the floor
 
-  function paintFloor(context, paint, figure, eye) {
-    const size = SPACING * Math.ceil((figure.bounds.radius + 0.7) / SPACING);
+  /** A disc of `size` metres around the group that fades out, with lines. */
+  function paintFloor(context, paint, figure, eye, size) {
     const ux = Math.cos(figure.front), uz = -Math.sin(figure.front);  // lines run as the group faces
     onFloor(context, eye, 0, 0, ux, uz, size, size);
     context.fillStyle = paint.floor;
@@ -373,8 +384,8 @@ const viewer = (() => {
     context.arc(0, 0, 1, 0, 2 * Math.PI);
     context.fill();
     context.beginPath();
-    for (let v = -size; v <= size + 1e-6; v += SPACING) {
-      const place = v / size, half = Math.sqrt(Math.max(0, 1 - place * place));
+    for (let line = Math.ceil(-size / SPACING); line <= size / SPACING; ++line) {
+      const place = (line * SPACING) / size, half = Math.sqrt(Math.max(0, 1 - place * place));
       context.moveTo(place, -half);
       context.lineTo(place, half);
       context.moveTo(-half, place);
@@ -410,8 +421,6 @@ const viewer = (() => {
 
   const START = { azimuth: -0.55, elevation: 0.2, zoom: 1 };
   const BAND = 26, TITLE = 20;  // heights of a band's heading and of a cell's title, pixels
-  const clamp = (v, low, high) => Math.min(high, Math.max(low, v));
-
   /** Cells of both bands: {bands: [{name, y, empty}], cells: [{x, y, width, height, figure}], height}. */
   function layout(sets, width) {
     const most = Math.max(1, ...sets.map((s) => s.figures.length));
@@ -429,12 +438,17 @@ const viewer = (() => {
     return { bands, cells, height: Math.ceil(y) };
   }
 
-  /** Pixels a metre at which the largest group fits its cell however it is turned. */
-  function fitScale(cells, elevation) {
-    const cos = Math.cos(elevation), sin = Math.sin(elevation), margin = 0.18;
-    return Math.min(...cells.map(({ figure: { bounds }, width, height }) => Math.min(
-      width / (2 * (bounds.radius + margin)),
-      height / ((bounds.top - bounds.floor + margin) * cos + 2 * (bounds.radius + margin) * sin))));
+  /**
+   * {scale, tall, floor}: pixels a metre at which the largest group fits its cell however it is turned, the
+   * height of the tallest and the floor's radius in metres. All cells share them: sizes compare, floors lie level.
+   */
+  function fit(cells) {
+    if (!cells.length) return { scale: 1, tall: 1, floor: 1 };
+    const cos = Math.cos(START.elevation), sin = Math.sin(START.elevation), margin = 0.12;
+    const tall = Math.max(...cells.map(({ figure: { bounds } }) => bounds.top - bounds.floor)) + margin;
+    const wide = Math.max(...cells.map(({ figure: { bounds } }) => bounds.radius)) + margin;
+    const { width, height } = cells[0], scale = Math.min(width / (2 * wide), height / (tall * cos + 2 * wide * sin));
+    return { tall, scale, floor: Math.min(wide + 0.4, width / (2 * scale), (height / scale - tall * cos) / (2 * sin)) };
   }
 
   class Stage {
@@ -462,6 +476,7 @@ const viewer = (() => {
       this.width = this.canvas.parentElement.clientWidth;
       if (!this.width) return;
       this.place = layout(this.sets, this.width);
+      this.fit = fit(this.place.cells);
       this.dense = Math.min(2, window.devicePixelRatio || 1);
       this.canvas.width = Math.round(this.width * this.dense);
       this.canvas.height = Math.round(this.place.height * this.dense);
@@ -483,38 +498,37 @@ const viewer = (() => {
       if (!this.paint) return;
       context.setTransform(1, 0, 0, 1, 0, 0);
       context.clearRect(0, 0, this.canvas.width, this.canvas.height);
-      const scale = place.cells.length ? fitScale(place.cells, START.elevation) * this.zoom * this.dense : 1;
-      for (const cell of place.cells) this.drawCell(cell, scale);
+      for (const cell of place.cells) this.drawCell(cell);
       this.drawWords();
     }
 
-    drawCell(cell, scale) {
+    drawCell(cell) {
       const { context, dense, eye } = this, { figure } = cell;
       context.setTransform(dense, 0, 0, dense, 0, 0);
       context.save();
       context.beginPath();
       context.rect(cell.x, cell.y, cell.width, cell.height);
       context.clip();
-      this.aim(eye, cell, figure, scale);
+      this.aim(eye, cell, figure);
       pose(figure, this.time);
       project(figure, eye);
       sortSolids(figure);
-      paintFloor(context, this.paint, figure, eye);
+      paintFloor(context, this.paint, figure, eye, this.fit.floor);
       paintShadow(context, this.paint, figure, eye);
       paintBodies(context, this.paint, figure, eye);
       context.restore();
     }
 
     /** Points the eye at the middle of the group: `eye.x, eye.y` is where the floor under it comes to lie. */
-    aim(eye, cell, { bounds, front }, scale) {
+    aim(eye, cell, { front }) {
       const angle = front + this.azimuth;
       eye.sin = Math.sin(angle);
       eye.cos = Math.cos(angle);
       eye.sinUp = Math.sin(this.elevation);
       eye.cosUp = Math.cos(this.elevation);
-      eye.scale = scale;
+      eye.scale = this.fit.scale * this.zoom * this.dense;
       eye.x = (cell.x + cell.width / 2) * this.dense;
-      eye.y = (cell.y + cell.height / 2) * this.dense + 0.5 * scale * (bounds.top - bounds.floor) * eye.cosUp;
+      eye.y = (cell.y + cell.height / 2) * this.dense + 0.5 * eye.scale * this.fit.tall * eye.cosUp;
     }
 
     drawWords() {
