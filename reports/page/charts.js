@@ -218,9 +218,9 @@ const charts = (() => {
 
   // --- Confusion matrix ---------------------------------------------------------------------------
 
-  const levels = 10;  // steps of shading: more than eyes tell apart, and few enough to draw as paths
+  const levels = 25;  // steps of shading: more than eyes tell apart, and few enough to draw as paths
 
-  /** One path a step of shading: 120 x 120 cells as ten elements rather than fourteen thousand. */
+  /** One path a step of shading: 120 x 120 cells as a few elements rather than fourteen thousand. */
   function matrixShades(confusion, cell, origin) {
     const paths = new Array(levels + 1).fill("");
     confusion.forEach((line, row) => {
@@ -240,7 +240,7 @@ const charts = (() => {
     const named = cell >= 13 && classes.length >= count;
     const every = named ? 1 : cell >= 13 ? 1 : [2, 5, 10, 20].find((n) => n * cell >= 26) ?? 50;
     for (let i = 0; i < count; i += every) {
-      const text = named ? shortened(classes[i], 18) : String(i + 1), middle = (i + 0.5) * cell;
+      const text = named ? shortened(classes[i], 16) : String(i + 1), middle = (i + 0.5) * cell;
       group.append(
         svg("text", { class: "y-tick", x: origin.x - 6, y: origin.y + middle }, text),
         svg("text", { class: named ? "slanted" : "x-tick",
@@ -283,9 +283,9 @@ const charts = (() => {
 
   /** Steps of shading with their shares, drawn as the cells are. */
   function heatKey() {
-    const key = drawing(14 * levels, 12, { class: "swatch", "aria-hidden": "true" });
+    const step = 5, key = drawing(step * levels, 12, { class: "swatch", "aria-hidden": "true" });
     for (let level = 1; level <= levels; ++level) key.append(svg("path", {
-      class: "heat", "fill-opacity": level / levels, d: `M${14 * (level - 1)} 1h14v10h-14z`,
+      class: "heat", "fill-opacity": level / levels, d: `M${step * (level - 1)} 1h${step}v10h${-step}z`,
     }));
     return html("span", { class: "entry" }, "0 ", key, " 100 % of the row");
   }

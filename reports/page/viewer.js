@@ -227,7 +227,9 @@ const viewer = (() => {
     for (let i = 0; i < order.length; ++i) {
       const solid = solids[i % solids.length], first = Math.floor(i / solids.length) * motion.joints;
       const near = 0.5 * (screen[(first + solid.a) * 3 + 2] + screen[(first + solid.b) * 3 + 2]);
-      nearness[i] = solid.ball ? screen[(first + solid.b) * 3 + 2] : near + 0.3 * radii[2 * i + 1];
+      // A head counts as near as the nearer end of the neck, which would otherwise run over its face.
+      nearness[i] = 0.3 * radii[2 * i + 1] +
+        (solid.ball ? Math.max(screen[(first + solid.a) * 3 + 2], screen[(first + solid.b) * 3 + 2]) : near);
     }
     for (let i = 1; i < order.length; ++i) {
       const moved = order[i];
@@ -437,15 +439,16 @@ const viewer = (() => {
   }
 
   /**
-   * {scale, tall}: pixels a metre at which the largest group fits its cell however it is turned, and the
-   * height of the tallest in metres. All cells share both: sizes compare, and floors lie level.
+   * {scale, tall, floor}: pixels a metre at which the largest group fits its cell however it is turned, the
+   * height of the tallest and the floor's radius in metres. All cells share them: sizes compare, floors lie level.
    */
   function fit(cells) {
-    if (!cells.length) return { scale: 1, tall: 1 };
+    if (!cells.length) return { scale: 1, tall: 1, floor: 1 };
     const cos = Math.cos(START.elevation), sin = Math.sin(START.elevation), margin = 0.12;
     const tall = Math.max(...cells.map(({ figure: { bounds } }) => bounds.top - bounds.floor)) + margin;
     const wide = Math.max(...cells.map(({ figure: { bounds } }) => bounds.radius)) + margin;
-    return { tall, scale: Math.min(cells[0].width / (2 * wide), cells[0].height / (tall * cos + 1.3 * wide * sin)) };
+    const { width, height } = cells[0], scale = Math.min(width / (2 * wide), height / (tall * cos + 2 * wide * sin));
+    return { tall, scale, floor: Math.min(wide + 0.4, width / (2 * scale), (height / scale - tall * cos) / (2 * sin)) };
   }
 
   class Stage {
@@ -510,7 +513,7 @@ const viewer = (() => {
       pose(figure, this.time);
       project(figure, eye);
       sortSolids(figure);
-      paintFloor(context, this.paint, figure, eye, (0.5 * cell.width) / this.fit.scale);
+      paintFloor(context, this.paint, figure, eye, this.fit.floor);
       paintShadow(context, this.paint, figure, eye);
       paintBodies(context, this.paint, figure, eye);
       context.restore();
