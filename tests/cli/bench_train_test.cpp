@@ -1,0 +1,43 @@
+// `actformer bench train` at a size that takes no time. How fast it is stands in no test.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/command.hpp"
+
+using namespace actformer::test;
+
+namespace {
+
+bool has_training() {
+    return std::filesystem::exists(std::filesystem::path(ACTFORMER_PROGRAM).parent_path() /
+                                   "actformer-train");
+}
+
+}  // namespace
+
+TEST(BenchTrain, TellsWhereTheTimeGoes) {
+    if (!has_training()) GTEST_SKIP() << "this build has no libtorch";
+    const auto result = run_actformer(
+        "bench train --persons 2 --classes 3 --frames 16 --batch 2 --threads 1 --rounds 1 --json "
+        "2>/dev/null");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    const auto json = nlohmann::json::parse(result.output, nullptr, false);
+    for (const auto* step : {"discriminator step", "generator step"}) {
+        const double seconds = json[step]["seconds"];
+        double layers = 0;
+        for (const auto& layer : json[step]["milliseconds"])
+            layers += layer["forward"].get<double>() + layer["backward"].get<double>();
+        EXPECT_GT(layers, 0) << step;
+        EXPECT_LE(layers, 1e3 * seconds) << step << ": layers run one after another on the step's own thread";
+    }
+    EXPECT_TRUE(json["generator step"]["milliseconds"].contains("attention over persons"));
+    EXPECT_FALSE(json["generator step"].contains("ratio")) << "no peer was asked";
+}
+
+TEST(BenchTrain, RefusesAFolderWithoutThePeer) {
+    if (!has_training()) GTEST_SKIP() << "this build has no libtorch";
+    expect_refused(run_actformer("bench train --frames 16 --batch 1 --rounds 1 --peers /nowhere"),
+                   {"/nowhere", "actformer_speed.py", "--peers"});
+}
