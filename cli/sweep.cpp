@@ -31,19 +31,6 @@ std::string plain(const std::string& text) {
     return ingest::printable(text);
 }
 
-const char* name_of(JobState state) {
-    switch (state) {
-        case JobState::done:
-            return "done";
-        case JobState::failed:
-            return "failed";
-        case JobState::running:
-            return "running";
-        default:
-            return "to do";
-    }
-}
-
 void print_commands(const reports::Job& job, const Options& options) {
     for (const auto& words : job.commands)
         fmt::print(
@@ -72,8 +59,8 @@ void print_plan(const reports::Plan& plan, const Options& options) {
             if (seconds) cost = "about " + duration(*seconds), sum += *seconds;
             if (!seconds) ++unknown;
         }
-        fmt::print("{:<8} {:<24} {}  {}{}\n", name_of(s.state), job.id, plain(job.title), cost,
-                   s.state == JobState::failed ? ": " + plain(s.why) : "");
+        fmt::print("{:<8} {:<24} {}  {}{}\n", s.state == JobState::waiting ? "to do" : name_of(s.state),
+                   job.id, plain(job.title), cost, s.state == JobState::failed ? ": " + plain(s.why) : "");
         if (options.dry_run && s.state != JobState::done && s.state != JobState::failed)
             print_commands(job, options);
     }

@@ -9,19 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* name_of(CellState state) {
-    switch (state) {
-        case CellState::not_run:
-            return "not run";
-        case CellState::waiting:
-            return "not finished";
-        case CellState::failed:
-            return "failed";
-        default:
-            return "measured";
-    }
-}
-
 Json figures_json(const Figures& figures) {
     Json out{{"mean", nullptr},
              {"ci95", nullptr},
@@ -37,7 +24,7 @@ Json figures_json(const Figures& figures) {
 }
 
 Json group_json(const CellGroup& group, const PaperColumns& columns) {
-    Json out{{"dataset", columns.dataset}, {"state", name_of(group.state)}};
+    Json out{{"dataset", columns.dataset}, {"state", in_words(group.state)}};
     out["provenance"] = provenance(group);
     for (std::size_t m = 0; m < columns.metrics.size(); ++m)
         out["metrics"][columns.metrics[m]] = figures_json(group.figures[m]);
@@ -149,7 +136,7 @@ std::string to_csv(const std::vector<FilledTable>& tables) {
                     out +=
                         fmt::format("{},{},{},{},{},{}\n", table.paper->id,
                                     csv_text(table.paper->rows[r].name), columns.dataset, columns.metrics[m],
-                                    name_of(group.state), csv_figures(group.figures[m]));
+                                    in_words(group.state), csv_figures(group.figures[m]));
             }
     return out;
 }

@@ -63,16 +63,7 @@ std::string tip(const CellGroup& group) {
 }
 
 std::string value(const CellGroup& group, const Figures& figures) {
-    switch (group.state) {
-        case CellState::not_run:
-            return "not run";
-        case CellState::waiting:
-            return "not finished";
-        case CellState::failed:
-            return "failed";
-        case CellState::measured:
-            break;
-    }
+    if (group.state != CellState::measured) return in_words(group.state);
     if (!figures.measured) return "not measured";
     auto out = "<span class=\"value\">" + figure_text(figures.measured->mean) + "</span>";
     if (figures.measured->half_width)

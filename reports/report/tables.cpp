@@ -127,6 +127,11 @@ std::vector<FilledTable> fill_tables(Measured& measured) {
     return tables;
 }
 
+const char* in_words(CellState state) {
+    static constexpr const char* words[] = {"not run", "not finished", "failed", "measured"};
+    return words[static_cast<std::size_t>(state)];
+}
+
 std::string heading_of(const std::string& metric) {
     if (metric == "accuracy") return "Acc. %";
     const auto found = std::ranges::find_if(eval::metrics, [&](const auto& m) { return m.name == metric; });

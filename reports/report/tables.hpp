@@ -19,6 +19,9 @@ struct Figures {
 
 enum class CellState { not_run, waiting, failed, measured };
 
+/// "not run", "not finished", "failed", "measured"
+const char* in_words(CellState state);
+
 /// What one row of a table has on one dataset.
 struct CellGroup {
     CellState state = CellState::not_run;

@@ -52,19 +52,6 @@ std::string shown(std::string path) {
     return path.starts_with(out) ? path.substr(out.size()) : path;
 }
 
-const char* name_of(JobState state) {
-    switch (state) {
-        case JobState::done:
-            return "done";
-        case JobState::failed:
-            return "failed";
-        case JobState::running:
-            return "running";
-        default:
-            return "waiting";
-    }
-}
-
 Json run_json(const PlannedRun& run, const JobStatus& status) {
     Json out{{"seed", run.seed}, {"status", name_of(status.state)}};
     if (!status.why.empty()) out["why"] = status.why;
@@ -86,6 +73,19 @@ Json data_json(const SweepDataset& data) {
 }
 
 }  // namespace
+
+const char* name_of(JobState state) {
+    switch (state) {
+        case JobState::done:
+            return "done";
+        case JobState::failed:
+            return "failed";
+        case JobState::running:
+            return "running";
+        default:
+            return "waiting";
+    }
+}
 
 fs::path folder_of(const fs::path& out, const Job& job) {
     return out / "jobs" / job.id;

@@ -23,6 +23,7 @@
 namespace actformer::reports {
 
 enum class JobState { waiting, running, done, failed };
+const char* name_of(JobState state);
 
 struct JobStatus {
     JobState state = JobState::waiting;
