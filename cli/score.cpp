@@ -27,7 +27,7 @@ struct Options {
     eval::ScoreRequest request;
     std::vector<fs::path> generated;
     fs::path generator, labels, out;
-    std::string program, device;
+    std::string program, device, generate_on;
     std::size_t repeats = 1, per_class = 100;
     std::uint64_t seed = 0;
     bool json = false;
@@ -112,6 +112,7 @@ eval::MotionSet generated_set(const Options& options, const std::string& fingerp
                                          "--per-class",
                                          std::to_string(options.per_class)};
         if (!classes.empty()) command.insert(command.end(), {"--classes", classes});
+        if (!options.generate_on.empty()) command.insert(command.end(), {"--device", options.generate_on});
         const auto result = reports::run_process(command, work / "generate.log");
         if (result.exit != 0)
             throw Error(
@@ -266,6 +267,8 @@ void add_motion_options(CLI::App* command, Options& options) {
     command->add_option("--per-class", options.per_class, "Motions that the generator makes of a class")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
+    command->add_option("--generate-on", options.generate_on,
+                        "Where libtorch generates: cpu, cuda or cuda:N (default: cpu)");
     command->add_option("--program", options.program, "The actformer that generates (default: this one)")
         ->type_name("PROGRAM");
     command->add_option("--window", request.window, "Frames of the windows that real clips are cut into")

@@ -192,6 +192,8 @@ class Planner {
         job.needs = {generator};
         job.commands = {{"{program}", "generate", "--generator", folder_of(generator) + "/run", "-o",
                          "{job}/motions.h5", "--per-class", "4", "--seed", "0"}};
+        if (const auto device = row.set.find("device"); device != row.set.end())
+            job.commands[0].insert(job.commands[0].end(), {"--device", device->second});
         job.work = 1;
         job.pace = 0.5;
         return add(std::move(job));
@@ -222,6 +224,8 @@ class Planner {
                 words.insert(words.end(),
                              {"--generator", run.run, "--repeats", std::to_string(row.repeats), "--per-class",
                               std::to_string(row.per_class), "--program", "{program}"});
+                if (const auto device = row.set.find("device"); device != row.set.end())
+                    words.insert(words.end(), {"--generate-on", device->second});
             } else {
                 words.emplace_back("--generated");
                 for (const auto& motions : row.motions) words.push_back(with_contents(motions, job));

@@ -137,6 +137,14 @@ TEST_F(Sweep, RowsLeaveWhatTheyAreLikeAlone) {
     EXPECT_EQ(results()["rows"][3]["dataset"], "one");
 }
 
+TEST_F(Sweep, GeneratesWhereItTrains) {
+    sweep_file("  full: {set: {device: cuda}, fills: [table3/full/NTU-1P]}\n");
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(calls_of("train generator") * calls_of("device=cuda"), 1);
+    EXPECT_EQ(calls_of("--device cuda"), 1) << "generate";
+    EXPECT_EQ(calls_of("--generate-on cuda"), 1) << "score";
+}
+
 TEST_F(Sweep, ARowThatFailsStopsNoOther) {
     sweep_file(two_rows);
     write_file(dir / "broken", "prior=gaussian");
