@@ -694,6 +694,7 @@ const viewer = (() => {
       turn.addEventListener("change", () => this.invalidate());
       reset.addEventListener("click", () => this.resetView());
       canvas.addEventListener("dblclick", () => this.resetView());
+      canvas.addEventListener("contextrestored", () => this.refresh());  // a lost picture does not come back by itself
       canvas.addEventListener("keydown", (event) => this.key(event));
       canvas.addEventListener("wheel", (event) => {
         if (document.activeElement !== canvas && !event.ctrlKey) return;  // the page scrolls
