@@ -37,9 +37,15 @@ const charts = (() => {
 
   const linear = (from, to, start, end) => (v) => start + ((v - from) / (to - from)) * (end - start);
 
-  /** Scales, grid, tick labels and titles of a chart with two axes; `box` is its inside in pixels. */
-  function axes(box, xTicks, yTicks, xTitle, yTitle, withXGrid) {
-    const x = linear(xTicks[0], xTicks.at(-1), box.left, box.right);
+  /** Ticks inside a range that ends where the data do, as a number of epochs does. */
+  const ticksWithin = (low, high, wanted) => ticks(low, high, wanted).filter((v) => v >= low && v <= high);
+
+  /**
+   * Scales, grid, tick labels and titles of a chart with two axes; `box` is its inside in pixels, `xRange`
+   * the ends of the first axis where ticks are not its ends.
+   */
+  function axes(box, xTicks, yTicks, xTitle, yTitle, { withXGrid = false, xRange = [xTicks[0], xTicks.at(-1)] }) {
+    const x = linear(...xRange, box.left, box.right);
     const y = linear(yTicks[0], yTicks.at(-1), box.bottom, box.top);
     const group = svg("g", { class: "axes" });
     const xText = tickText(xTicks), yText = tickText(yTicks);
@@ -120,9 +126,11 @@ const charts = (() => {
       drawn.map((s) => [s.key, data.present(p[s.key]) ? p[s.key] * scale : null])) }));
     const values = drawn.flatMap((s) => scaled.map((p) => p[s.key]).filter(data.present));
     const low = Math.min(...values), epochs = scaled.map((p) => p.epoch);
+    // One epoch alone still needs a width to stand in.
+    const xRange = [Math.min(...epochs), Math.max(Math.max(...epochs), Math.min(...epochs) + 1)];
     const height = 230, box = { left: 58, right: width - 14, top: 10, bottom: height - 44 };
-    const frame = axes(box, ticks(Math.min(...epochs), Math.max(...epochs), Math.max(3, width / 90)),
-      ticks(fromZero ? Math.min(0, low) : low, Math.max(...values), 4), "epoch", title + (unit && `, ${unit}`), false);
+    const frame = axes(box, ticksWithin(...xRange, Math.max(3, width / 90)),
+      ticks(fromZero ? Math.min(0, low) : low, Math.max(...values), 4), "epoch", title + (unit && `, ${unit}`), { xRange });
 
     const cursor = svg("path", { class: "cursor", visibility: "hidden" });
     const chart = drawing(width, height, { class: "chart", tabindex: 0, role: "img",
@@ -238,9 +246,10 @@ const charts = (() => {
   function matrixLabels(classes, count, cell, origin, size) {
     const group = svg("g", { class: "axes" });
     const named = cell >= 13 && classes.length >= count;
-    const every = named ? 1 : cell >= 13 ? 1 : [2, 5, 10, 20].find((n) => n * cell >= 26) ?? 50;
-    for (let i = 0; i < count; i += every) {
-      const text = named ? shortened(classes[i], 16) : String(i + 1), middle = (i + 0.5) * cell;
+    const letters = Math.floor((origin.x - 30) / 7), every = named ? 1 : cell >= 13 ? 1 : [2, 5, 10, 20].find((n) => n * cell >= 26) ?? 50;
+    for (let i = 0; i < count; ++i) {
+      if (i > 0 && (i + 1) % every) continue;
+      const text = named ? shortened(classes[i], letters) : String(i + 1), middle = (i + 0.5) * cell;
       group.append(
         svg("text", { class: "y-tick", x: origin.x - 6, y: origin.y + middle }, text),
         svg("text", { class: named ? "slanted" : "x-tick",
@@ -271,7 +280,7 @@ const charts = (() => {
     });
   }
 
-  const share = (count, of) => (of > 0 ? `${((100 * count) / of).toFixed(0)} %` : "–");
+  const share = (count, of) => (of > 0 ? `${((100 * count) / of).toFixed(0)}\u00a0%` : "–");
 
   function commonest(classes, confusion) {
     const found = data.commonConfusions(confusion, 5);
@@ -357,7 +366,7 @@ const charts = (() => {
     const title = (ordinal, i) => `${ordinal} principal component` +
       (data.present(explained?.[i]) ? ` (${(100 * explained[i]).toFixed(0)} %)` : "");
     const frame = axes(box, ticks(...range(clouds, "x"), 6), ticks(...range(clouds, "y"), 5),
-      title("first", 0), title("second", 1), true);
+      title("first", 0), title("second", 1), { withXGrid: true });
     const rest = chosen >= 0 ? " back" : "", other = (l) => l !== chosen, same = (l) => l === chosen;
     const chart = drawing(width, height, { class: "chart", role: "img",
       "aria-label": "Real and generated motions by the first two principal components of their features" },

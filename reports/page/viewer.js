@@ -184,6 +184,13 @@ const viewer = (() => {
     return Math.atan2(across * line.z, across * -line.x);
   }
 
+  /** Flanks and long limbs give a body its shadow; fingers and the rest of the trunk would only cost time. */
+  function castsShadow(tree, { a, b, part, ball }, lengths) {
+    if (ball) return false;
+    const flank = tree.parents[b] !== a, longest = Math.max(...lengths);
+    return flank || (part !== TRUNK_PART && lengths[b] > 0.28 * longest);
+  }
+
   /** A motion made ready: solids, radii, bounds and the arrays that its frames are worked out in. */
   function makeFigure(motion, topology) {
     const tree = readTopology(topology);
@@ -191,7 +198,7 @@ const viewer = (() => {
     const roots = limbRoots(tree, motion, people[0]), trunk = trunkOf(tree, roots), solids = solidsOf(tree, roots, trunk);
     const count = solids.length * motion.persons;
     return {
-      motion, solids, bounds: boundsOf(motion), front: frontOf(motion, roots),
+      motion, solids, casts: solids.filter((s) => castsShadow(tree, s, people[0])), bounds: boundsOf(motion), front: frontOf(motion, roots),
       radii: Float32Array.from(people.flatMap((lengths) => radiiOf(tree, solids, trunk, lengths))),
       world: new Float32Array(motion.persons * motion.joints * 3),
       screen: new Float32Array(motion.persons * motion.joints * 3),  // pixels right, pixels down, metres nearer
@@ -299,7 +306,7 @@ const viewer = (() => {
       return fade;
     };
     return { limbs, balls, rims, ink: read("--ink"), quiet: read("--quiet"), rule: read("--rule"),
-      floor: fading("--floor", 1), grid: fading("--floor-line", 1), shadow: fading("--shadow", 0.17) };
+      floor: fading("--floor", 1), grid: fading("--floor-line", 1), shadow: fading("--shadow", 0.3) };
   }
 
   /** The sides and ends of a cone along x, in units of its larger radius, each `rim` wider. */
@@ -396,20 +403,22 @@ const viewer = (() => {
     context.stroke();
   }
 
-  /** A soft blot under every solid, paler and wider the higher it is: the light stands straight above. */
-  function paintShadow(context, paint, figure, eye) {
-    const { solids, motion, world, radii, bounds } = figure;
+  const SHADOW_HEIGHT = 1.5;  // metres above the floor at which nothing of a shadow is left
+
+  /** A soft blot under each solid that casts one, paler and wider the higher it is: light from straight above. */
+  function paintShadow(context, paint, { casts, motion, world, bounds }, eye) {
     context.fillStyle = paint.shadow;
-    for (let i = 0; i < figure.order.length; ++i) {
-      const solid = solids[i % solids.length], first = Math.floor(i / solids.length) * motion.joints;
+    for (let i = 0; i < casts.length * motion.persons; ++i) {
+      const solid = casts[i % casts.length], first = Math.floor(i / casts.length) * motion.joints;
       const a = (first + solid.a) * 3, b = (first + solid.b) * 3;
-      const dx = world[b] - world[a], dz = world[b + 2] - world[a + 2], length = Math.hypot(dx, dz);
       const height = Math.max(0, 0.5 * (world[a + 1] + world[b + 1]) - bounds.floor);
-      const wide = 1.3 * radii[2 * i + 1] + 0.05 + 0.07 * height;
+      if (height > SHADOW_HEIGHT) continue;
+      const dx = world[b] - world[a], dz = world[b + 2] - world[a + 2], length = Math.hypot(dx, dz);
+      const wide = 0.11 + 0.06 * height;
       const ux = length > 1e-4 ? dx / length : 1, uz = length > 1e-4 ? dz / length : 0;
       onFloor(context, eye, 0.5 * (world[a] + world[b]) - bounds.x, 0.5 * (world[a + 2] + world[b + 2]) - bounds.z,
         ux, uz, length / 2 + wide, wide);
-      context.globalAlpha = 1 / (1 + 0.9 * height);
+      context.globalAlpha = 1 - height / SHADOW_HEIGHT;
       context.beginPath();
       context.arc(0, 0, 1, 0, 2 * Math.PI);
       context.fill();
@@ -425,7 +434,7 @@ const viewer = (() => {
   function layout(sets, width) {
     const most = Math.max(1, ...sets.map((s) => s.figures.length));
     const columns = Math.min(most, width < 560 ? 2 : 4);
-    const cellWidth = width / columns, cellHeight = clamp(cellWidth * 1.05, 190, 290);
+    const cellWidth = width / columns, cellHeight = clamp(cellWidth * 1.05, 190, columns > 2 ? 300 : 360);
     const bands = [], cells = [];
     let y = 0;
     for (const { name, figures, empty } of sets) {
@@ -460,6 +469,7 @@ const viewer = (() => {
       this.sets = [];
       this.place = layout([], 1);
       this.resetView();
+      this.restyle();
     }
 
     resetView() {
@@ -469,6 +479,11 @@ const viewer = (() => {
     show(sets) {
       this.sets = sets;
       this.resize();
+    }
+
+    /** Takes up the colours of the theme. */
+    restyle() {
+      this.paint = makePaint(this.context, this.canvas);
     }
 
     /** Fits the canvas to its box and to the screen's pixels. */
@@ -481,7 +496,6 @@ const viewer = (() => {
       this.canvas.width = Math.round(this.width * this.dense);
       this.canvas.height = Math.round(this.place.height * this.dense);
       this.canvas.style.height = `${this.place.height}px`;
-      this.paint = makePaint(this.context, this.canvas);  // gradients belong to the size no more than the theme: cheap
     }
 
     orbit(right, up) {
@@ -495,7 +509,6 @@ const viewer = (() => {
 
     draw() {
       const { context, place } = this;
-      if (!this.paint) return;
       context.setTransform(1, 0, 0, 1, 0, 0);
       context.clearRect(0, 0, this.canvas.width, this.canvas.height);
       for (const cell of place.cells) this.drawCell(cell);
@@ -653,6 +666,7 @@ const viewer = (() => {
 
     /** After a change of width or theme. */
     refresh() {
+      this.stage.restyle();
       if (!this.longest) return;
       this.stage.resize();
       this.stage.draw();
@@ -680,6 +694,7 @@ const viewer = (() => {
       turn.addEventListener("change", () => this.invalidate());
       reset.addEventListener("click", () => this.resetView());
       canvas.addEventListener("dblclick", () => this.resetView());
+      canvas.addEventListener("contextrestored", () => this.refresh());  // a lost picture does not come back by itself
       canvas.addEventListener("keydown", (event) => this.key(event));
       canvas.addEventListener("wheel", (event) => {
         if (document.activeElement !== canvas && !event.ctrlKey) return;  // the page scrolls

@@ -169,8 +169,8 @@ class Browser:
 
     def whole_page(self):
         """A PNG of the page from top to bottom."""
-        height = self.run("return document.documentElement.scrollHeight")
-        width = self.run("return document.documentElement.clientWidth")
+        # From the top: what is sticky belongs there. With the scroll bar's width: the picture has none.
+        width, height = self.run("scrollTo(0, 0); return [innerWidth, document.documentElement.scrollHeight]")
         shot = self.command("Page.captureScreenshot", {
             "captureBeyondViewport": True, "clip": {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}})
         return base64.b64decode(shot["data"])
