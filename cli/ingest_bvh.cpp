@@ -39,6 +39,9 @@ void add_bvh_options(CLI::App* command, Options& options) {
         ->type_name("F");
     command->add_option("--smooth", bvh.smooth, "Smooth with a Gaussian of so many frames (default: off)")
         ->type_name("SIGMA");
+    command->add_flag("--centre-windows", bvh.centre_windows,
+                      "Recogniser and generator see roots relative to their mean in a window, not in the "
+                      "clip: for long walks");
     command->add_flag("--end-sites", bvh.end_sites, "Keep end sites as joints called 'PARENT end'");
     command
         ->add_option("--root", bvh.root,

@@ -38,6 +38,7 @@ fs::path features_cached_at(const FeaturesRequest& request, const kernels::Devic
     key.add(fmt::format("{}|{}|{}|{}|{}|{}|{}|", ACTFORMER_VERSION, ingest::checksum_file(request.recogniser),
                         request.persons_apart, request.window, info.name, info.platform, info.driver));
     key.add(describe(load_tiles(info)));
+    if (dataset.header().centre_windows) key.add("|centred windows");
     for (const auto& shard : dataset.shards()) key.add("|" + shard.checksum);
     for (const auto clip : dataset.split(request.split)) key.add("|" + dataset.clips()[clip].name);
     return cache_folder() / "features" / (key.hex() + ".h5");

@@ -12,6 +12,7 @@ View load_view(kernels::Device& device, const ingest::Dataset& dataset, const st
                     dataset.folder().string(), split);
     kernels::ClipTable table;
     table.persons = dataset.header().persons;
+    table.centre_windows = dataset.header().centre_windows;
     table.joints = static_cast<std::uint32_t>(dataset.header().topology.joints());
     for (const auto c : clips) {
         const auto& clip = dataset.clips()[c];

@@ -20,6 +20,8 @@ struct DatasetHeader {
     Topology topology;
     std::uint32_t persons = 1;
     double fps = 30;
+    bool centre_windows =
+        false;  ///< windows show the root relative to their own mean: clips wander further than a window
     std::vector<std::string> classes;  ///< label i is classes[i]
     std::vector<std::string> fields;   ///< metadata of every clip that splits may ask for, as in "performer"
     std::vector<Split> splits;

@@ -47,6 +47,7 @@ DatasetFile from_json(const Json& json, const std::string& where) {
     header.representation = json.at("representation").get<std::string>();
     header.fps = json.at("fps").get<double>();
     header.persons = json.at("persons").get<std::uint32_t>();
+    header.centre_windows = json.value("centre", "clip") == "window";
     header.topology = {json.at("topology").at("names").get<std::vector<std::string>>(),
                        json.at("topology").at("parents").get<std::vector<int>>()};
     header.classes = json.at("classes").get<std::vector<std::string>>();
@@ -86,21 +87,22 @@ std::string to_text(const DatasetFile& file) {
         clips += shard.clips;
         frames += shard.frames;
     }
-    const Json json{{"format", dataset_format},
-                    {"program", "actformer " ACTFORMER_VERSION},
-                    {"name", header.name},
-                    {"representation", header.representation},
-                    {"fps", header.fps},
-                    {"persons", header.persons},
-                    {"clips", clips},
-                    {"frames", frames},
-                    {"topology", {{"names", header.topology.names}, {"parents", header.topology.parents}}},
-                    {"classes", header.classes},
-                    {"fields", header.fields},
-                    {"splits", splits_to_json(header.splits)},
-                    {"settings", file.settings},
-                    {"source", file.fingerprint},
-                    {"shards", shards}};
+    Json json{{"format", dataset_format},
+              {"program", "actformer " ACTFORMER_VERSION},
+              {"name", header.name},
+              {"representation", header.representation},
+              {"fps", header.fps},
+              {"persons", header.persons},
+              {"clips", clips},
+              {"frames", frames},
+              {"topology", {{"names", header.topology.names}, {"parents", header.topology.parents}}},
+              {"classes", header.classes},
+              {"fields", header.fields},
+              {"splits", splits_to_json(header.splits)},
+              {"settings", file.settings},
+              {"source", file.fingerprint},
+              {"shards", shards}};
+    if (header.centre_windows) json["centre"] = "window";
     return json.dump(1) + "\n";
 }
 

@@ -16,6 +16,8 @@ struct ClipTable {
     std::uint32_t persons = 1, joints = 0, channels = 3;  ///< persons at most 16
     std::vector<std::uint32_t> frames;                    ///< (clips) each at least 1
     std::vector<std::uint32_t> labels;                    ///< (clips)
+    bool centre_windows =
+        false;  ///< show the root relative to its mean over a window's frames and persons; for limb data
 
     std::size_t clips() const { return frames.size(); }
     std::size_t frame_values() const { return std::size_t{persons} * joints * channels; }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "eval/view.hpp"
 #include "kernels/error.hpp"
 #include "model/blas.hpp"
 #include "model/checkpoint.hpp"
@@ -65,7 +66,7 @@ class Training {
 std::optional<kernels::ClipStore> load_test_split(kernels::Device& device, const ingest::Dataset& dataset,
                                                   const std::string& split) {
     if (split.empty()) return std::nullopt;
-    return load_split(device, dataset, split);
+    return eval::load_view(device, dataset, split).store;
 }
 
 std::vector<at::Tensor> trained(StgcnNet& net) {
@@ -83,7 +84,7 @@ Training::Training(const Config& config, const std::filesystem::path& run, const
       shape_(network_for(settings_, dataset_.header().topology, dataset_.header().persons,
                          dataset_.header().classes.size(), dataset_.folder().string())),
       opencl_(settings_.opencl),
-      train_clips_(load_split(opencl_, dataset_, settings_.train_split)),
+      train_clips_(eval::load_view(opencl_, dataset_, settings_.train_split).store),
       test_clips_(load_test_split(opencl_, dataset_, settings_.test_split)),
       feed_(train_clips_, {settings_.seed, kernels::ClassSampling::plain, true}, settings_.batch,
             settings_.frames),

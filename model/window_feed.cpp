@@ -16,22 +16,6 @@ Windows windows_of(kernels::Batch& batch) {
 
 }  // namespace
 
-kernels::ClipStore load_split(kernels::Device& device, const ingest::Dataset& dataset,
-                              const std::string& split) {
-    const auto clips = dataset.split(split);
-    if (clips.empty()) throw Error("{}: split {} holds no clip", dataset.folder().string(), split);
-    kernels::ClipTable table;
-    table.persons = dataset.header().persons;
-    table.joints = static_cast<std::uint32_t>(dataset.header().topology.joints());
-    for (const auto clip : clips) {
-        table.frames.push_back(dataset.clips()[clip].frames);
-        table.labels.push_back(dataset.clips()[clip].label);
-    }
-    kernels::ClipStore store(device, std::move(table));
-    for (std::size_t i = 0; i < clips.size(); ++i) store.load(i, dataset.motion(clips[i]).values);
-    return store;
-}
-
 RandomFeed::RandomFeed(const kernels::ClipStore& clips, const kernels::SamplerOptions& options,
                        std::uint32_t batch, std::uint32_t frames)
     : sampler_(clips, options),

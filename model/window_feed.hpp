@@ -1,13 +1,11 @@
-// Windows of a dataset's split on their way to a trainer: loaded to the OpenCL device once, drawn there, read in place.
+// Windows of a dataset's split on their way to a trainer: drawn on the OpenCL device, read in place.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "ingest/dataset.hpp"
 #include "kernels/sampler.hpp"
 
 namespace actformer::model {
@@ -18,10 +16,6 @@ struct Windows {
     float* values = nullptr;                ///< (count, P*C, T, K)
     const std::uint32_t* labels = nullptr;  ///< (count)
 };
-
-/// One split's clips on the device. Throws Error where the split is unknown or empty.
-kernels::ClipStore load_split(kernels::Device& device, const ingest::Dataset& dataset,
-                              const std::string& split);
 
 /// Random batches, each drawn while the one before is used.
 class RandomFeed {

@@ -121,6 +121,7 @@ BvhFormat::BvhFormat(BvhOptions options, const std::vector<std::string>& actions
     header.name = options_.dataset;
     header.topology = skeleton_below(example, root_of(options_, example), options_.end_sites).topology;
     header.fps = options_.fps > 0 ? options_.fps : source_fps_;
+    header.centre_windows = options_.centre_windows;
     header.classes = classes_of(options_, actions);
     header.fields = pattern_.fields();
     header.splits = options_.splits;
@@ -138,10 +139,11 @@ std::string BvhFormat::settings() const {
     return fmt::format(
         "bvh: dataset '{}', names '{}', {} metres a unit, {} frames a second, Gaussian smoothing sigma {} "
         "frames, end "
-        "sites {}, root '{}', joints {}, classes {}, splits{}",
+        "sites {}, root '{}', joints {}, classes {}, splits{}{}",
         options_.dataset, pattern_.text(), options_.scale, datasets_[0].fps, options_.smooth,
         options_.end_sites ? "kept" : "dropped", datasets_[0].topology.names[0],
-        fmt::join(datasets_[0].topology.names, ","), fmt::join(datasets_[0].classes, ","), splits);
+        fmt::join(datasets_[0].topology.names, ","), fmt::join(datasets_[0].classes, ","), splits,
+        options_.centre_windows ? ", windows centred" : "");
 }
 
 ParsedClip BvhFormat::parse(const RawText& raw) const {

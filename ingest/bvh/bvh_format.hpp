@@ -11,13 +11,14 @@
 namespace actformer::ingest {
 
 struct BvhOptions {
-    std::string dataset;     ///< the dataset's name
-    std::string pattern;     ///< of file names, as NamePattern takes it
-    float scale = 0.01F;     ///< metres a unit of the files; most are in centimetres
-    double fps = 0;          ///< frames a second to resample to; 0: as recorded
-    float smooth = 0;        ///< sigma of a Gaussian over frames; 0: none
-    bool end_sites = false;  ///< keep end sites as joints
-    std::string root;        ///< joint to take as root; empty: automatic_root of the first sound file
+    std::string dataset;          ///< the dataset's name
+    std::string pattern;          ///< of file names, as NamePattern takes it
+    float scale = 0.01F;          ///< metres a unit of the files; most are in centimetres
+    double fps = 0;               ///< frames a second to resample to; 0: as recorded
+    float smooth = 0;             ///< sigma of a Gaussian over frames; 0: none
+    bool end_sites = false;       ///< keep end sites as joints
+    bool centre_windows = false;  ///< see DatasetHeader
+    std::string root;             ///< joint to take as root; empty: automatic_root of the first sound file
     std::vector<std::string> classes;  ///< actions in the order of their labels; empty: all, sorted
     std::vector<Split> splits;         ///< over the pattern's fields
 };

@@ -259,6 +259,7 @@ TEST(BvhFormat, EveryOptionShowsInTheSettings) {
     EXPECT_NE(plain, settings([](BvhOptions& o) { o.smooth = 1; }));
     EXPECT_NE(plain, settings([](BvhOptions& o) { o.end_sites = true; }));
     EXPECT_NE(plain, settings([](BvhOptions& o) { o.root = "Knee"; }));
+    EXPECT_NE(plain, settings([](BvhOptions& o) { o.centre_windows = true; }));
     EXPECT_NE(plain, settings([](BvhOptions& o) { o.classes = {"walk"}; }));
     EXPECT_NE(plain, settings([](BvhOptions& o) { o.pattern = "{action}_{n}"; }));
     EXPECT_NE(plain, settings([](BvhOptions& o) { o.splits = {{"a", {{"index", {"1"}, false}}}}; }));

@@ -262,6 +262,63 @@ TEST(Windows, CutClipsOneAfterTheOther) {
     EXPECT_EQ(seen, windows.size());
 }
 
+/// What a batch holds of joint `k`, coordinate `d`, of the p-th person shown, in frame t of sample i.
+float shown_value(const Batch::View& view, std::uint32_t persons, std::uint32_t window, std::size_t i,
+                  std::size_t t, std::size_t p, std::size_t k, std::size_t d) {
+    return view.values[(((i * persons + p) * 3 + d) * window + t) * 4 + k];
+}
+
+TEST(Sampler, CentresTheRootOverAWindowWhereAsked) {
+    constexpr std::uint32_t persons = 2, window = 8, samples = 32;
+    Device device;
+    ClipTable table{persons, 4, 3, {20, 5, 8}, {0, 1, 1}};
+    ClipStore plain(device, table);
+    table.centre_windows = true;
+    ClipStore centred(device, table);
+    for (auto* store : {&plain, &centred})
+        for (std::size_t c = 0; c < 3; ++c) {
+            std::vector<float> values;
+            for (std::size_t i = 0; i < std::size_t{table.frames[c]} * persons * 12; ++i)
+                values.push_back(std::sin(0.37F * static_cast<float>(i + 50 * c)) +
+                                 static_cast<float>(i % 12));
+            store->load(c, values);
+        }
+    const SamplerOptions options{.seed = 3};
+    Batch all(plain, samples, window), moved(centred, samples, window);
+    Sampler(plain, options).draw(0, all);
+    Sampler(centred, options).draw(0, moved);
+    const auto before = all.map(), after = moved.map();
+    for (std::size_t i = 0; i < samples; ++i)
+        for (std::size_t d = 0; d < 3; ++d) {
+            const auto at = [&](const Batch::View& view, std::size_t t, std::size_t p, std::size_t k) {
+                return shown_value(view, persons, window, i, t, p, k, d);
+            };
+            double mean = 0;
+            for (std::size_t t = 0; t < window; ++t)
+                for (std::size_t p = 0; p < persons; ++p)
+                    mean += at(before, t, p, 0) / (1.0 * window * persons);
+            for (std::size_t t = 0; t < window; ++t)
+                for (std::size_t p = 0; p < persons; ++p) {
+                    // 16 float32 additions of numbers up to 13
+                    EXPECT_NEAR(at(after, t, p, 0), at(before, t, p, 0) - mean, 2e-5);
+                    for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(at(after, t, p, k), at(before, t, p, k));
+                }
+        }
+
+    const auto windows = consecutive_windows(table.frames, window);
+    Batch cut(centred, 4, window);
+    WindowCutter(centred, windows).cut(0, cut);
+    const auto view = cut.map();
+    for (std::size_t i = 0; i < view.labels.size(); ++i)
+        for (std::size_t d = 0; d < 3; ++d) {
+            double mean = 0;
+            for (std::size_t t = 0; t < window; ++t)
+                for (std::size_t p = 0; p < persons; ++p)
+                    mean += shown_value(view, persons, window, i, t, p, 0, d);
+            EXPECT_NEAR(mean / (window * persons), 0, 2e-6);
+        }
+}
+
 TEST(ClipStore, RefusesWhatCannotBeDrawn) {
     Device device;
     EXPECT_THROW(ClipStore(device, ClipTable{1, 4, 3, {}, {}}), Error);
