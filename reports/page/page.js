@@ -46,7 +46,7 @@ const actionName = (action) => (action < 0 ? "all actions" : row().classes?.[act
 
 function showMotions() {
   const found = data.motionsOf(report, row(), chosen.action, MOST);
-  const figures = (motions) => motions.map((m) => viewer.makeFigure(m, found.topology));
+  const figures = (motions) => motions.map((m) => body.makeFigure(m, found.topology));
   const some = Boolean(found && found.real.length + found.generated.length);
   byId("stage").hidden = !some;
   byId("motions-missing").hidden = some;

@@ -202,9 +202,15 @@ class Details {
     }
 
     static Json curves(const MeasuredRun& run) {
-        return {{"generator", read_curves(run.run, {"discriminator_loss", "generator_loss", "real_score",
-                                                    "made_score", "accuracy", "fid_whole"})},
-                {"recogniser", read_curves(run.recogniser, {"loss", "class_accuracy"})}};
+        auto recogniser = read_curves(run.recogniser, {"loss", "class_accuracy"});
+        for (auto& epoch : recogniser)
+            if (epoch.contains("class_accuracy")) {
+                epoch["accuracy"] = epoch["class_accuracy"];
+                epoch.erase("class_accuracy");
+            }
+        return {{"generator", read_curves(run.run, {"discriminator_loss", "generator_loss", "real_score", "made_score",
+                                                    "accuracy", "fid_whole"})},
+                {"recogniser", recogniser}};
     }
 
     static Json points_json(const Points& points, const Classes& classes) {
