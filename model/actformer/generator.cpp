@@ -141,13 +141,15 @@ at::Tensor Generator::motion(const at::Tensor& x) const {
         .reshape({n, settings_.persons * settings_.numbers, t, settings_.joints()});
 }
 
-/// x (N, T, nodes, in): every hop's linear map, then the fixed sums over nodes.
+/// x (N, T, nodes, in): every hop's linear map, then the fixed sums over nodes. Spectral norms and sums make numbers smaller layer
+/// by layer, until biases are all that is left: each node's are brought back to deviation 1.
 at::Tensor Generator::graph_layer(const at::Tensor& x, const std::string& name,
                                   const at::Tensor& sums) const {
     const auto n = x.size(0), t = x.size(1), nodes = x.size(2);
     const auto mapped =
         linear(x, name).view({n, t, nodes, 2, -1}).transpose(2, 3);  // (N, T, hops, nodes, out)
-    return at::leaky_relu(at::matmul(sums, mapped).sum(2), leak);
+    const auto y = at::leaky_relu(at::matmul(sums, mapped).sum(2), leak);
+    return at::layer_norm(y, {y.size(-1)}, {}, {}, norm_epsilon);
 }
 
 /// x (N, S, T, W), S the tokens a frame -> (N, P, T, K, D).

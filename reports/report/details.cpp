@@ -208,8 +208,8 @@ class Details {
                 epoch["accuracy"] = epoch["class_accuracy"];
                 epoch.erase("class_accuracy");
             }
-        return {{"generator", read_curves(run.run, {"discriminator_loss", "generator_loss", "real_score", "made_score",
-                                                    "accuracy", "fid_whole"})},
+        return {{"generator", read_curves(run.run, {"discriminator_loss", "generator_loss", "real_score",
+                                                    "made_score", "accuracy", "fid_whole"})},
                 {"recogniser", recogniser}};
     }
 

@@ -43,7 +43,8 @@ std::string filled(std::string_view page, const std::map<std::string, std::strin
 std::string page(const std::string& title, const std::vector<FilledTable>& tables,
                  const std::vector<std::string>& notices, const nlohmann::ordered_json& data) {
     std::string script;
-    for (const auto* name : {"data.js", "charts.js", "body.js", "paint.js", "viewer.js", "page.js"}) script += page_part(name);
+    for (const auto* name : {"data.js", "charts.js", "body.js", "paint.js", "viewer.js", "page.js"})
+        script += page_part(name);
     return filled(page_part("page.html"), {{"title", escaped(title)},
                                            {"style", std::string(page_part("page.css"))},
                                            {"note", html_note(tables, notices)},

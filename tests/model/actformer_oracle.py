@@ -117,7 +117,8 @@ def graph_layer(net, x, name, sums):
     y = net.linear(x, name)
     half = y.shape[1] // 2
     y = sums[0] @ y[:, :half] + sums[1] @ y[:, half:]
-    return np.where(y > 0, y, .2 * y)
+    y = np.where(y > 0, y, .2 * y)
+    return (y - y.mean(1, keepdims=True)) / np.sqrt(y.var(1, keepdims=True) + 1e-6)
 
 
 def pose(case, raw):
