@@ -19,7 +19,6 @@
 namespace actformer::reports {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t usual_frames = 60;  // a window's, where the scores do not tell
