@@ -15,11 +15,11 @@ Adam::Adam(FlatParameters& parameters, const AdamSettings& settings)
     if (!squares_.is_cpu()) scratch_ = at::empty_like(squares_);
 }
 
-void Adam::step() {
+void Adam::step(double share) {
     const LayerTimer timer("Adam");
     ++steps;
     const auto t = static_cast<double>(steps);
-    const double rate = settings_.rate / (1 - std::pow(settings_.beta1, t));
+    const double rate = share * settings_.rate / (1 - std::pow(settings_.beta1, t));
     const double root = std::sqrt(1 - std::pow(settings_.beta2, t));
     squares_.is_cpu() ? step_here(rate, root) : step_in_operators(rate, root);
 }

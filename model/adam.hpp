@@ -11,8 +11,8 @@ class Adam {
     /// `parameters` must outlive the optimiser.
     Adam(FlatParameters& parameters, const AdamSettings& settings);
 
-    /// Takes the gradients and moves the parameters.
-    void step();
+    /// Takes the gradients and moves the parameters, at `share` of the rate.
+    void step(double share = 1);
 
     at::Tensor& means() {
         return means_;

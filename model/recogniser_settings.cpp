@@ -1,6 +1,7 @@
 #include "model/recogniser_settings.hpp"
 
 #include "kernels/error.hpp"
+#include "model/rate_drops.hpp"
 
 namespace actformer::model {
 
@@ -61,10 +62,7 @@ RecogniserSettings recogniser_settings(const Config& config) {
 }
 
 double RecogniserSettings::rate_at(std::uint64_t epoch) const {
-    double now = rate;
-    for (const auto drop : rate_drops)
-        if (epoch >= static_cast<std::uint64_t>(drop)) now *= rate_factor;
-    return now;
+    return rate * rate_share(rate_drops, rate_factor, epoch);
 }
 
 const std::vector<std::string>& keys_free_to_change() {

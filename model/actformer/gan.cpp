@@ -98,7 +98,7 @@ void Gan::step_discriminator(const at::Tensor& real, const at::Tensor& labels, s
     discriminator_parameters_.remarks().copy_(
         at::stack({loss.detach(), of[0].detach().mean(), of[1].detach().mean()}));
     processes_.average(discriminator_parameters_.message());
-    discriminator_adam_.step();
+    discriminator_adam_.step(rate_share_);
     sums_.narrow(0, 0, 3).add_(discriminator_parameters_.remarks());
 }
 
@@ -116,7 +116,7 @@ void Gan::step_generator(const at::Tensor& labels, std::uint64_t draw) {
     discriminator_parameters_.want_gradients(true);
     generator_parameters_.remarks().copy_(loss.detach().view({1}));
     processes_.average(generator_parameters_.message());
-    generator_adam_.step();
+    generator_adam_.step(rate_share_);
     sums_.narrow(0, 3, 1).add_(generator_parameters_.remarks());
     if (!shown_parameters_) return;
     const auto t = static_cast<double>(generator_adam_.steps);

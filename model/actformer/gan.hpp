@@ -33,6 +33,9 @@ class Gan {
     void step_discriminator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw);
     void step_generator(const at::Tensor& labels, std::uint64_t draw);
 
+    /// Steps from now on go at this share of the rates.
+    void set_rate_share(double share) { rate_share_ = share; }
+
     /// Summed over the steps since reset(): [discriminator's loss, its score of real and of generated motions, generator's
     /// loss], (4) double on the device, means over the processes.
     at::Tensor& sums() { return sums_; }
@@ -64,6 +67,7 @@ class Gan {
     FlatParameters generator_parameters_, discriminator_parameters_;
     std::optional<FlatParameters> shown_parameters_;  ///< where a mean is kept
     Adam generator_adam_, discriminator_adam_;
+    double rate_share_ = 1;
     at::Tensor sums_;
 };
 

@@ -7,6 +7,7 @@ namespace actformer::model {
 namespace {
 
 using Number = std::int64_t;
+using Numbers = std::vector<Number>;
 
 std::vector<Key> training_keys() {
     return {
@@ -23,6 +24,8 @@ std::vector<Key> training_keys() {
          {"wasserstein", "hinge"}},
         {"generator_rate", 2e-4, "learning rate", 0, 1},
         {"discriminator_rate", 2e-4, "learning rate", 0, 1},
+        {"rate_drops", Numbers{}, "epochs at whose start both rates are multiplied by rate_factor", 0, 1e9},
+        {"rate_factor", 0.25, "see rate_drops", 0, 1},
         {"beta1", 0.0, "of Adam: decay of the mean gradient", 0, 0.9999},
         {"beta2", 0.999, "of Adam: decay of the mean squared gradient", 0, 0.999999},
         {"average", 0.0, "decay a step of the mean of the generator's weights, as in 0.999; 0 keeps none", 0,
@@ -63,6 +66,8 @@ GanSettings gan_settings(const Config& config) {
     s.loss = text("loss") == "wasserstein" ? Loss::wasserstein : Loss::hinge;
     s.generator = adam_of(config, "generator_rate");
     s.discriminator = adam_of(config, "discriminator_rate");
+    s.rate_drops = config.get<Numbers>("rate_drops");
+    s.rate_factor = config.get<double>("rate_factor");
     s.average = config.get<double>("average");
     s.recogniser = text("recogniser");
     s.score_every = whole("score_every");

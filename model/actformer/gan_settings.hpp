@@ -24,6 +24,8 @@ struct GanSettings {
     std::uint32_t discriminator_steps = 4;                ///< a generator's step
     Loss loss = Loss::hinge;
     AdamSettings generator, discriminator;
+    std::vector<std::int64_t> rate_drops;  ///< epochs at whose start both rates are multiplied by rate_factor
+    double rate_factor = 1;
     double average = 0;  ///< decay a step of the mean of the generator's weights; 0 keeps none
     std::string recogniser;
     std::uint32_t score_every = 0, score_per_class = 0;  ///< epochs; motions generated

@@ -15,6 +15,7 @@
 #include "model/actformer/motion_maker.hpp"
 #include "model/blas.hpp"
 #include "model/checkpoint.hpp"
+#include "model/rate_drops.hpp"
 #include "model/run_folder.hpp"
 #include "model/training.hpp"
 
@@ -234,6 +235,7 @@ Losses Training::losses_of(const std::vector<double>& sums, std::uint64_t steps)
 /// the step's number.
 void Training::train_step() {
     const auto steps = std::uint64_t{settings_.discriminator_steps};
+    gan_.set_rate_share(rate_share(settings_.rate_drops, settings_.rate_factor, epoch()));
     at::Tensor labels;
     for (std::uint64_t i = 0; i < steps; ++i) {
         const auto windows = feed_.batch(step_ * steps + i);

@@ -108,6 +108,20 @@ TEST_F(TrainGenerator, GoesOnAfterAKillToTheSameBits) {
     }
 }
 
+TEST_F(TrainGenerator, RatesDropAtTheEpochsNamed) {
+    // Powers of two: a quarter of four times a rate is the rate, to the bit.
+    const std::string high = "generator_rate=0.0009765625 discriminator_rate=0.0009765625 epochs=2 ",
+                      low = "generator_rate=0.000244140625 discriminator_rate=0.000244140625 epochs=2 ";
+    ASSERT_EQ(train("low", low).exit, 0);
+    ASSERT_EQ(train("dropped", high + "rate_drops=[0] rate_factor=0.25").exit, 0);
+    ASSERT_EQ(train("later", high + "rate_drops=[1] rate_factor=0.25").exit, 0);
+    const auto numbers = [&](const std::string& run) {
+        return state_of(dir / run / newest(dir / run)).second;
+    };
+    EXPECT_EQ(numbers("low"), numbers("dropped"));
+    EXPECT_NE(numbers("low"), numbers("later")) << "its first epoch goes at the higher rate";
+}
+
 TEST_F(TrainGenerator, LogsLossesAndScoresAndKeepsTheBest) {
     const auto result =
         train("run", "epochs=3 score_every=1 score_per_class=4 --json " + recogniser() + " 2>/dev/null");
