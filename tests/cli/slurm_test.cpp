@@ -15,7 +15,7 @@ namespace {
 
 /// Some node takes jobs.
 bool has_slurm() {
-    const auto nodes = run_command("timeout 10 sinfo --noheader --states=idle,mixed,allocated --format=%D");
+    const auto nodes = run_command("timeout 3 sinfo --noheader --states=idle,mixed,allocated --format=%D");
     return nodes.exit == 0 && std::atoi(nodes.output.c_str()) > 0;
 }
 

@@ -102,6 +102,15 @@ TEST_F(Sweep, ARowThatFailsStopsNoOther) {
     EXPECT_EQ(results()["rows"][1]["status"], "done");
 }
 
+TEST_F(Sweep, ManyHandsTellOfEveryFailure) {
+    sweep_file("  full: {seeds: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10], fills: [table3/full/NTU-1P]}\n");
+    write_file(dir / "broken", "train generator");
+    const auto result = sweep("--jobs 4");
+    EXPECT_EQ(result.exit, 1) << result.output;
+    EXPECT_PRED2([](const auto& said, const auto& words) { return said.find(words) != std::string::npos; },
+                 result.output, std::string("30 of 32 jobs failed or could not begin"));
+}
+
 TEST_F(Sweep, KilledTwiceItComesToTheSame) {
     sweep_file(two_rows);
     write_file(dir / "pause", "0.2");
