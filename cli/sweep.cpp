@@ -40,9 +40,10 @@ void print_commands(const reports::Job& job, const Options& options) {
 
 /// Every job, what it may cost, and with a dry run its commands.
 void print_plan(const reports::Plan& plan, const Options& options) {
+    const auto in_slurm = options.status ? reports::jobs_in_slurm(options.out) : std::nullopt;
     const auto status = reports::statuses(plan, options.out);
     double sum = 0;
-    std::size_t unknown = 0, open = 0;
+    std::size_t unknown = 0, open = 0, dropped = 0;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
         const auto& job = plan.jobs[i];
         const auto& s = status[i];
@@ -59,8 +60,12 @@ void print_plan(const reports::Plan& plan, const Options& options) {
             if (seconds) cost = "about " + duration(*seconds), sum += *seconds;
             if (!seconds) ++unknown;
         }
-        fmt::print("{:<8} {:<24} {}  {}{}\n", s.state == JobState::waiting ? "to do" : name_of(s.state),
-                   job.id, plain(job.title), cost, s.state == JobState::failed ? ": " + plain(s.why) : "");
+        const bool waits = s.state == JobState::waiting;
+        const bool queued = waits && in_slurm && in_slurm->contains(job.id);
+        dropped += waits && in_slurm && !queued;
+        const char* state = queued ? "queued" : waits ? "to do" : name_of(s.state);
+        fmt::print("{:<8} {:<24} {}  {}{}\n", state, job.id, plain(job.title), cost,
+                   s.state == JobState::failed ? ": " + plain(s.why) : "");
         if (options.dry_run && s.state != JobState::done && s.state != JobState::failed)
             print_commands(job, options);
     }
@@ -68,6 +73,8 @@ void print_plan(const reports::Plan& plan, const Options& options) {
     if (sum > 0) fmt::print(", about {} of work one after another", duration(sum));
     if (unknown > 0 && open > 0) fmt::print("; {} of unknown length", unknown);
     fmt::print("\n");
+    if (dropped > 0)
+        fmt::print("{} of them neither done nor in Slurm's queue; --slurm submits them again\n", dropped);
 }
 
 /// Rows that failed, each with its reason once. The number of them.

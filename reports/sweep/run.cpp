@@ -43,14 +43,14 @@ std::string run_commands(const Job& job, const SweepOptions& options, const fs::
     return {};
 }
 
-/// Runs a job that nobody else does or has done.
-void work_on(const Job& job, const SweepOptions& options) {
+/// Runs a job, unless somebody else has done it; empty, or why it failed.
+std::string work_on(const Job& job, const SweepOptions& options) {
     const auto folder = folder_of(options.out, job);
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw Error("{}: cannot be made: {}", folder.string(), error.message());
     const eval::FileLock lock(folder / "lock");
-    if (fs::exists(folder / "done.json")) return;  // by whom we waited for
+    if (fs::exists(folder / "done.json")) return {};  // by whom we waited for
     fs::remove(folder / "failed.json");
     Json said{{"kind", job.kind}, {"title", job.title}, {"commands", Json::array()}};
     for (const auto& words : job.commands)
@@ -63,6 +63,15 @@ void work_on(const Job& job, const SweepOptions& options) {
         write_json(folder / "done.json", {{"seconds", seconds}, {"finished", now()}});
     else
         write_json(folder / "failed.json", {{"why", why}, {"seconds", seconds}, {"finished", now()}});
+    return why;
+}
+
+/// The job's status once we have worked on it. Its folder alone would not tell of a failure while others hold the lock: those who
+/// try the job again, or a process just forked by another hand.
+JobStatus worked_on(const Plan& plan, std::size_t i, const SweepOptions& options) {
+    auto why = work_on(plan.jobs[i], options);
+    if (!why.empty()) return {JobState::failed, std::move(why), {}};
+    return statuses(plan, options.out)[i];
 }
 
 /// What is to be done, shared by the hands that do it.
@@ -120,8 +129,7 @@ class Board {
 
     JobStatus done_by_us(std::size_t i) {
         try {
-            work_on(plan_.jobs[i], options_);
-            return statuses(plan_, options_.out)[i];
+            return worked_on(plan_, i, options_);
         } catch (const std::exception& e) {
             return {JobState::failed, e.what(), {}};
         }
@@ -177,9 +185,9 @@ JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, c
         if (plan.jobs[i].id != id) continue;
         make_folder(options.out);
         if (!plan.jobs[i].problem.empty()) return {JobState::failed, plan.jobs[i].problem, {}};
-        work_on(plan.jobs[i], options);
+        auto status = worked_on(plan, i, options);
         write_results(sweep, plan, options.out);
-        return statuses(plan, options.out)[i];
+        return status;
     }
     throw Error("there is no job '{}' in this sweep; was its file changed since it was submitted?", id);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 
 #include "reports/sweep/results.hpp"
 
@@ -30,8 +31,11 @@ JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, c
 
 /// Submits what is not done through sbatch, each job after those it needs; a job is `again` with --only and its id, run where it
 /// lands. Keeps Slurm's numbers in OUT/slurm.json, and leaves alone what is queued there already. Returns how many were
-/// submitted. Throws Error where sbatch cannot be run or refuses.
+/// submitted. Throws Error where sbatch or squeue cannot be run or refuses.
 std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
                         const std::vector<std::string>& again, const std::vector<std::string>& sbatch_words);
+
+/// Ids of the jobs submitted from OUT that wait or run in Slurm; none where nothing was submitted or squeue does not answer.
+std::optional<std::set<std::string>> jobs_in_slurm(const std::filesystem::path& out);
 
 }  // namespace actformer::reports

@@ -1,9 +1,11 @@
-// submit_plan of run.hpp.
+// submit_plan and jobs_in_slurm of run.hpp.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <sstream>
 
 #include "ingest/file.hpp"
 #include "kernels/error.hpp"
@@ -22,12 +24,29 @@ Json submitted_before(const fs::path& out) {
     return json.is_object() ? json : Json::object();
 }
 
-/// Slurm's number of a job that still waits or runs there; empty where it does not.
-std::string queued(const Json& before, const Job& job, const fs::path& log) {
-    if (!before.contains(job.id) || !before[job.id].is_string()) return {};
-    const auto number = before[job.id].get<std::string>();
-    const auto asked = run_process({"squeue", "--noheader", "--jobs", number, "--format", "%i"}, log);
-    return asked.exit == 0 && asked.last_line.find(number) != std::string::npos ? number : std::string();
+/// Its last words, which begin with its name where they are its own.
+std::string refusal(const std::string& program, const std::string& line) {
+    if (line.starts_with(program + ":")) return line;
+    return program + ": " + (line.empty() ? "failed" : line);
+}
+
+/// Slurm's numbers of this user's jobs that wait or run there; none where squeue does not answer. Left out are those that are over
+/// but for the tidying up, and those that wait for what failed, which Slurm is about to drop.
+std::optional<std::set<std::string>> queue(const fs::path& out, std::string& why) {
+    const auto file = out / fmt::format("squeue-{}.txt", ::getpid());
+    const auto asked = run_process({"squeue", "--noheader", "--me", "--format", "%i %t %r"}, file);
+    std::set<std::string> numbers;
+    std::ifstream lines(file);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string number, state, reason;
+        words >> number >> state >> reason;
+        if (state != "CG" && reason != "DependencyNeverSatisfied") numbers.insert(number);
+    }
+    fs::remove(file);
+    if (asked.exit == 0) return numbers;
+    why = asked.last_line;
+    return {};
 }
 
 /// sbatch --parsable prints NUMBER or NUMBER;CLUSTER.
@@ -38,45 +57,75 @@ std::string number_in(const std::string& line) {
     return digits ? number : std::string();
 }
 
+/// Gives the job to sbatch; its number there.
+std::string submit(const Job& job, const std::string& after, const SweepOptions& options,
+                   std::vector<std::string> again, const std::vector<std::string>& sbatch_words) {
+    const auto folder = folder_of(options.out, job);
+    const auto log = options.out / "slurm.log";
+    fs::create_directories(folder);
+    again.insert(again.end(), {"--only", job.id});
+    std::vector<std::string> words{"sbatch", "--parsable", "--job-name",
+                                   job.id,   "--output",   (folder / "slurm.txt").string()};
+    if (!after.empty())
+        words.insert(words.end(), {"--dependency", "afterok" + after, "--kill-on-invalid-dep=yes"});
+    words.insert(words.end(), sbatch_words.begin(), sbatch_words.end());
+    words.insert(words.end(), {"--wrap", command_line(again)});
+    const auto said = run_process(words, log);
+    const auto number = number_in(said.last_line);
+    if (said.exit != 0 || number.empty())
+        throw Error("{}; see {}", refusal("sbatch", said.last_line), log.string());
+    return number;
+}
+
 }  // namespace
+
+std::optional<std::set<std::string>> jobs_in_slurm(const fs::path& out) {
+    const auto before = submitted_before(out);
+    if (before.empty()) return {};
+    std::string why;
+    const auto numbers = queue(out, why);
+    if (!numbers) return {};
+    std::set<std::string> ids;
+    for (const auto& [id, number] : before.items())
+        if (number.is_string() && numbers->contains(number.get<std::string>())) ids.insert(id);
+    return ids;
+}
 
 std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
                         const std::vector<std::string>& again, const std::vector<std::string>& sbatch_words) {
     fs::create_directories(options.out / "jobs");
     write_results(sweep, plan, options.out);
-    const auto log = options.out / "slurm.log";
+    auto numbers = submitted_before(options.out);
+    std::set<std::string> queued;
+    if (!numbers.empty()) {
+        std::string why;
+        auto asked = queue(options.out, why);
+        if (!asked) throw Error("{}", refusal("squeue", why));
+        queued = std::move(*asked);
+    }
+    // Asked after the queue: what has left that has left its mark by now.
     const auto status = statuses(plan, options.out);
-    const auto before = submitted_before(options.out);
-    auto numbers = before;
+    std::vector<std::string> live(plan.jobs.size());  // numbers of those that wait or run
+    std::vector<bool> fresh(plan.jobs.size());
     std::size_t submitted = 0;
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
         const auto& job = plan.jobs[i];
         if (status[i].state == JobState::done || !job.problem.empty()) continue;
         bool possible = true;
+        bool stale = false;  // queued after what ended without being done: Slurm is about to drop it
         std::string after;
         for (const auto need : job.needs) {
             if (status[need].state == JobState::done) continue;
-            possible = possible && plan.jobs[need].problem.empty() && numbers.contains(plan.jobs[need].id);
-            if (possible) after += ":" + numbers[plan.jobs[need].id].get<std::string>();
+            possible = possible && !live[need].empty();
+            stale = stale || fresh[need];
+            after += ":" + live[need];
         }
         if (!possible) continue;  // it needs what has a problem
-        if (!queued(before, job, log).empty()) continue;
-        fs::create_directories(folder_of(options.out, job));
-        auto only = again;
-        only.insert(only.end(), {"--only", job.id});
-        std::vector<std::string> words{"sbatch",     "--parsable",
-                                       "--job-name", job.id,
-                                       "--output",   (folder_of(options.out, job) / "slurm.txt").string()};
-        if (!after.empty())
-            words.insert(words.end(), {"--dependency", "afterok" + after, "--kill-on-invalid-dep=yes"});
-        words.insert(words.end(), sbatch_words.begin(), sbatch_words.end());
-        words.insert(words.end(), {"--wrap", command_line(only)});
-        const auto said = run_process(words, log);
-        const auto number = number_in(said.last_line);
-        if (said.exit != 0 || number.empty())
-            throw Error("sbatch: {}; see {}", said.last_line.empty() ? "failed" : said.last_line,
-                        log.string());
-        numbers[job.id] = number;
+        if (numbers.contains(job.id) && numbers[job.id].is_string()) live[i] = numbers[job.id];
+        if (!live[i].empty() && queued.contains(live[i]) && !stale) continue;
+        live[i] = submit(job, after, options, again, sbatch_words);
+        fresh[i] = true;
+        numbers[job.id] = live[i];
         ingest::write_whole(options.out / "slurm.json", numbers.dump(2) + "\n");
         ++submitted;
     }

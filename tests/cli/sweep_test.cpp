@@ -3,11 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <nlohmann/json.hpp>
-#include <sstream>
-
-#include "tests/support/command.hpp"
-#include "tests/support/temp_dir.hpp"
+#include "tests/support/sweep.hpp"
 
 using namespace actformer::test;
 namespace fs = std::filesystem;
@@ -15,60 +11,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-/// Notes its call, makes what it was asked for, and fails where the file "broken" holds a word of the call.
-constexpr const char* stand_in =
-    "#!/bin/sh\n"
-    "here=$(dirname \"$0\")\n"
-    "echo \"$@\" >> \"$here/calls\"\n"
-    "sleep \"$(cat \"$here/pause\" 2>/dev/null || echo 0)\"\n"
-    "if [ -e \"$here/broken\" ] && echo \"$@\" | grep -q \"$(cat \"$here/broken\")\"; then\n"
-    "    echo \"loading\" >&2; echo \"actformer: out of luck\" >&2; exit 1\n"
-    "fi\n"
-    "kind=$1\n"
-    "while [ $# -gt 0 ]; do [ \"$1\" = -o ] && out=$2; shift; done\n"
-    "case $kind in\n"
-    "    generate) echo motions > \"$out\" ;;\n"
-    "    score) echo '{\"accuracy\": {\"mean\": 0.5}}' > \"$out\" ;;\n"
-    "    ingest) mkdir -p \"$out/ntu-1p\" \"$out/ntu-2p\" ;;\n"
-    "    *) mkdir -p \"$out\" ;;\n"
-    "esac\n";
-
-struct Sweep : testing::Test {
-    void SetUp() override {
-        write_file(dir / "actformer", stand_in);
-        ::chmod((dir / "actformer").c_str(), 0755);
-        write_file(dir / "r.yaml", "model: recogniser\n");
-        write_file(dir / "g.yaml", "model: generator\n");
-    }
-    void sweep_file(const std::string& rows, const std::string& more = "") {
-        write_file(dir / "sweep.yaml",
-                   "name: test\n"
-                   "datasets:\n"
-                   "  one: {clips: 60, actions: 1-4, use: ntu-1p}\n"
-                   "  two: {like: one, use: ntu-2p}\n"
-                   "recognisers:\n"
-                   "  eyes: {data: one, config: r.yaml, set: {epochs: 2}}\n"
-                   "base: {data: one, recogniser: eyes, config: g.yaml, repeats: 3, set: {epochs: 5}}\n" +
-                       more + "rows:\n" + rows);
-    }
-    std::string command(const std::string& more = "") const {
-        return std::string(ACTFORMER_PROGRAM) + " sweep " + at("sweep.yaml") + " -o " + at("out") +
-               " --program " + at("actformer") + " " + more;
-    }
-    CommandResult sweep(const std::string& more = "") const { return run_command(command(more)); }
-    std::string at(const std::string& name) const { return (dir / name).string(); }
-    std::vector<std::string> calls() const {
-        std::vector<std::string> out;
-        std::istringstream lines(read_file(dir / "calls"));
-        for (std::string line; std::getline(lines, line);) out.push_back(line);
-        return out;
-    }
-    long calls_of(const std::string& word) const {
-        const auto all = calls();
-        return std::count_if(all.begin(), all.end(),
-                             [&](const std::string& c) { return c.find(word) != std::string::npos; });
-    }
-    Json results() const { return Json::parse(read_file(dir / "out/results.json"), nullptr, false); }
+struct Sweep : SweepFixture {
     void expect_refused(const std::vector<std::string>& words) const {
         const auto result = sweep("--dry-run");
         EXPECT_EQ(result.exit, 1) << result.output;
@@ -77,12 +20,7 @@ struct Sweep : testing::Test {
             EXPECT_NE(result.output.find(word), std::string::npos) << word << ": " << result.output;
         EXPECT_FALSE(fs::exists(at("out")));
     }
-    TempDir dir;
 };
-
-const char* const two_rows =
-    "  full: {fills: [table1/ActFormer/NTU-1P, table3/full/NTU-1P]}\n"
-    "  gaussian: {like: full, set: {prior: gaussian}, fills: [table3/Gaussian prior/NTU-1P]}\n";
 
 }  // namespace
 
@@ -162,6 +100,15 @@ TEST_F(Sweep, ARowThatFailsStopsNoOther) {
     ASSERT_EQ(sweep().exit, 0);
     EXPECT_EQ(calls().size(), before + 3) << "generator, motions and scores of that row alone";
     EXPECT_EQ(results()["rows"][1]["status"], "done");
+}
+
+TEST_F(Sweep, ManyHandsTellOfEveryFailure) {
+    sweep_file("  full: {seeds: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10], fills: [table3/full/NTU-1P]}\n");
+    write_file(dir / "broken", "train generator");
+    const auto result = sweep("--jobs 4");
+    EXPECT_EQ(result.exit, 1) << result.output;
+    EXPECT_PRED2([](const auto& said, const auto& words) { return said.find(words) != std::string::npos; },
+                 result.output, std::string("30 of 32 jobs failed or could not begin"));
 }
 
 TEST_F(Sweep, KilledTwiceItComesToTheSame) {
@@ -299,5 +246,5 @@ TEST(SweepFiles, AreSound) {
                                         entry.path().string() + " -o /nonexistent/out --dry-run");
         EXPECT_EQ(result.exit, 0) << result.output;
     }
-    EXPECT_EQ(files, 6U);
+    EXPECT_EQ(files, 7U);
 }
