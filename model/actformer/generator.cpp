@@ -167,7 +167,10 @@ at::Tensor Generator::poses(const at::Tensor& x) const {
     y = graph_layer(y, "up1", to_middle_);
     y = graph_layer(y, "up2", to_fine_);
     y = graph_layer(y, "graph", within_fine_);
-    return linear(y, "head").view({n, settings_.persons, t, joints, numbers});
+    const auto head = weights_.layer("head", is_training());
+    const auto each = head.weight.view({joints, numbers, -1}).transpose(1, 2);  // (K, fine, D)
+    const auto raw = at::matmul(y.unsqueeze(-2), each).squeeze(-2) + head.bias.view({joints, numbers});
+    return raw.view({n, settings_.persons, t, joints, numbers});
 }
 
 /// The free joint as it is, the others as unit limbs or rotations.

@@ -75,7 +75,8 @@ void add_head(List& list, const GeneratorSettings& s) {
     list.linear("up1", 2 * std::int64_t{channels.middle}, channels.coarse);
     list.linear("up2", 2 * std::int64_t{channels.fine}, channels.middle);
     list.linear("graph", 2 * std::int64_t{channels.fine}, channels.fine);
-    list.linear("head", s.numbers, channels.fine);
+    list.linear("head", s.joints() * s.numbers,
+                channels.fine);  // each joint its own: neighbours in the graph look alike
 }
 
 std::int64_t trained_under(const std::vector<NetworkWeight>& weights, const std::string& prefix) {

@@ -175,7 +175,8 @@ def generate(case, net, latent, label):
                 y = graph_layer(net, y, 'up1', [m.T for m in matrices(middle, case['coarse'])])
                 y = graph_layer(net, y, 'up2', [m.T for m in matrices(fine, case['middle'])])
                 y = graph_layer(net, y, 'graph', matrices(fine, range(joints)))
-                raw = net.linear(y, 'head')
+                head = net.spectral('head.weight').reshape(joints, numbers, -1)
+                raw = np.einsum('kf,kdf->kd', y, head) + net.w['head.bias'].reshape(joints, numbers)
             out[p * numbers:(p + 1) * numbers, frame] = pose(case, raw).T
     return out
 
