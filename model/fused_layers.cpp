@@ -4,6 +4,7 @@
 #include <torch/csrc/autograd/custom_function.h>
 
 #include "kernels/error.hpp"
+#include "model/tensor_numbers.hpp"
 
 namespace actformer::model {
 namespace {
@@ -13,20 +14,6 @@ using torch::autograd::Function;
 using torch::autograd::variable_list;
 
 constexpr double momentum = 0.1, epsilon = 1e-5;
-
-/// Calls `run` with a number of the tensor's type.
-template <typename Run>
-void by_type(const at::Tensor& x, const Run& run) {
-    if (x.scalar_type() == at::kDouble)
-        run(double{});
-    else
-        run(float{});
-}
-
-template <typename T>
-T* in(const at::Tensor& x) {
-    return x.data_ptr<T>();
-}
 
 cpu::MotionShape shape_of(const at::Tensor& x) {
     return {x.size(0), x.size(1), x.size(2)};

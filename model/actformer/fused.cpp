@@ -6,6 +6,7 @@
 #include "model/actformer/motion_kernels.hpp"
 #include "model/actformer/spectral_kernel.hpp"
 #include "model/layer_clock.hpp"
+#include "model/tensor_numbers.hpp"
 
 namespace actformer::model {
 namespace {
@@ -14,26 +15,11 @@ using torch::autograd::AutogradContext;
 using torch::autograd::Function;
 using torch::autograd::variable_list;
 
-/// Calls `run` with a number of the tensor's type.
-template <typename Run>
-void by_type(const at::Tensor& x, const Run& run) {
-    if (x.scalar_type() == at::kDouble)
-        run(double{});
-    else
-        run(float{});
-}
-
-/// The same under a layer's name.
+/// by_type() under a layer's name.
 template <typename Run>
 void timed(const char* layer, bool backward, const at::Tensor& x, const Run& run) {
     const LayerTimer timer(layer, backward);
     by_type(x, run);
-}
-
-/// The tensor's numbers; null where it is undefined.
-template <typename T>
-T* in(const at::Tensor& x) {
-    return x.defined() ? x.data_ptr<T>() : nullptr;
 }
 
 template <typename T>
