@@ -134,7 +134,7 @@ std::string html_note(const std::vector<FilledTable>& tables, const std::vector<
                     data.insert(group.row->data);
                     synthetic = synthetic || group.row->data.find("synthetic") != std::string::npos;
                 }
-    out += "<p>Every large figure below was measured by actformer";
+    out += "<div class=\"note\">\n<p>Every large figure below was measured by actformer";
     if (!data.empty()) out += " on " + escaped(fmt::format("{}", fmt::join(data, "; ")));
     out += ". The small figures are those that the ActFormer paper prints, for comparison only.</p>\n";
     if (synthetic)
@@ -143,7 +143,7 @@ std::string html_note(const std::vector<FilledTable>& tables, const std::vector<
             "the methods "
             "compare on made-up motion. They cannot be held against the paper's.</p>\n";
     for (const auto& notice : notices) out += "<p class=\"notice\">" + escaped(notice) + "</p>\n";
-    return out;
+    return out + "</div>\n";
 }
 
 std::string html_tables(const std::vector<FilledTable>& tables) {

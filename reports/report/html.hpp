@@ -12,7 +12,7 @@ namespace actformer::reports {
 /// characters made visible.
 std::string escaped(std::string_view text);
 
-/// What the data is that the tables were measured on, and what is amiss: paragraphs.
+/// What the data is that the tables were measured on, and what is amiss: a div of paragraphs.
 std::string html_note(const std::vector<FilledTable>& tables, const std::vector<std::string>& notices);
 
 /// A section a table (the classes of its elements are those that reports/page/page.css styles).

@@ -185,6 +185,7 @@ TEST_F(Report, NamesAreTextInEveryForm) {
     for (const auto* markup : {"</script><b>", "<b>&\"x", "<b>&amp;&quot;x", "<img", "<i>title"})
         EXPECT_EQ(html.find(markup), std::string::npos) << markup;
     EXPECT_NE(html.find("&lt;/script&gt;&lt;b&gt;&amp;&quot;x"), std::string::npos);
+    EXPECT_NE(html.find("<div class=\"note\">"), std::string::npos) << "what the data is comes first";
     EXPECT_EQ(to_json(tables, {})["tables"][2]["rows"][3]["groups"][0]["provenance"][0],
               "sweep test, row " + name);
 }
