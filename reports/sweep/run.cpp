@@ -30,6 +30,12 @@ std::string now() {
     return text;
 }
 
+void make_folder(const fs::path& out) {
+    std::error_code error;
+    fs::create_directories(out, error);
+    if (error) throw Error("{}: cannot be made: {}", out.string(), error.message());
+}
+
 /// The job's commands one after another; empty, or why one failed.
 std::string run_commands(const Job& job, const SweepOptions& options, const fs::path& folder) {
     for (const auto& words : job.commands) {
@@ -46,9 +52,7 @@ std::string run_commands(const Job& job, const SweepOptions& options, const fs::
 /// Runs a job, unless somebody else has done it; empty, or why it failed.
 std::string work_on(const Job& job, const SweepOptions& options) {
     const auto folder = folder_of(options.out, job);
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw Error("{}: cannot be made: {}", folder.string(), error.message());
+    make_folder(folder);
     const eval::FileLock lock(folder / "lock");
     if (fs::exists(folder / "done.json")) return {};  // by whom we waited for
     fs::remove(folder / "failed.json");
@@ -157,12 +161,6 @@ class Board {
     std::mutex mutex_;
     std::condition_variable changed_;
 };
-
-void make_folder(const fs::path& out) {
-    std::error_code error;
-    fs::create_directories(out, error);
-    if (error) throw Error("{}: cannot be made: {}", out.string(), error.message());
-}
 
 }  // namespace
 
