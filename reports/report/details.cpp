@@ -14,6 +14,7 @@
 #include "reports/report/moving.hpp"
 #include "reports/report/packed.hpp"
 #include "reports/report/projection.hpp"
+#include "reports/report/reading.hpp"
 #include "reports/report/tables.hpp"
 
 namespace actformer::reports {
@@ -22,17 +23,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t usual_frames = 60;  // a window's, where the scores do not tell
-
-/// The member of an object; null where there is none.
-Json member(const Json& object, const char* key) {
-    return object.is_object() && object.contains(key) ? object[key] : Json();
-}
-
-/// The member where it is a list; else an empty one.
-Json list(const Json& object, const char* key) {
-    const auto found = member(object, key);
-    return found.is_array() ? found : Json::array();
-}
 
 /// The classes of a row that have anything to show, and their places among them.
 struct Classes {
@@ -56,10 +46,10 @@ bool is_matrix(const Json& confusion, std::size_t n) {
 /// Those with samples on a side, or that samples were taken for.
 Classes classes_of(const Json& scored) {
     Classes out;
-    const auto all = list(scored, "per_class"), confusion = member(scored, "confusion");
+    const auto &all = list(scored, "per_class"), &confusion = member(scored, "confusion");
     const bool matrix = is_matrix(confusion, all.size());
     const auto count = [](const Json& one, const char* key) {
-        const auto value = member(one, key);
+        const auto& value = member(one, key);
         return value.is_number() ? value.get<double>() : 0;
     };
     for (std::uint32_t c = 0; c < all.size(); ++c) {
@@ -77,7 +67,7 @@ Json means_of(const Json& scored) {
     Json out = Json::object();
     for (const char* key :
          {"accuracy", "fid_mean", "fid_whole", "fida_mean", "fida_whole", "diversity", "multimodality"})
-        if (const auto mean = member(member(scored, key), "mean"); mean.is_number())
+        if (const auto& mean = member(member(scored, key), "mean"); mean.is_number())
             out[key] = mean.get<double>() * (std::string_view(key) == "accuracy" ? 100 : 1);
     return out;
 }
@@ -94,7 +84,7 @@ Json per_class(const Json& scored, const Classes& classes) {
 }
 
 Json confusion_of(const Json& scored, const Classes& classes) {
-    const auto all = member(scored, "confusion");
+    const auto& all = member(scored, "confusion");
     if (!is_matrix(all, list(scored, "per_class").size())) return {};
     Json out = Json::array();
     for (const auto asked : classes.labels) {
@@ -108,11 +98,11 @@ Json confusion_of(const Json& scored, const Classes& classes) {
 void add_scores(Json& row, const Json& scored, const Classes& classes) {
     row["classes"] = Json::array();
     for (const auto label : classes.labels) {
-        const auto name = member(scored["per_class"][label], "class");
+        const auto& name = member(scored["per_class"][label], "class");
         row["classes"].push_back(name.is_string() ? name : Json(fmt::format("class {}", label)));
     }
     row["scores"] = means_of(scored);
-    const auto accuracy = member(member(scored, "real"), "accuracy");
+    const auto& accuracy = member(member(scored, "real"), "accuracy");
     row["real_accuracy"] = accuracy.is_number() ? Json(100 * accuracy.get<double>()) : Json();
     row["floor"] = member(scored, "floor");
     row["warnings"] = list(scored, "warnings");
@@ -178,7 +168,8 @@ class Details {
                  {"why", row.why}};
         for (const auto& cell : row.fills) out["fills"].push_back(cell_in_words(cell));
         const auto* run = row.shown();
-        const auto scored = run ? run->scored : Json::object();
+        static const Json none;
+        const auto& scored = run ? run->scored : none;
         const auto classes = classes_of(scored);
         add_scores(out, scored, classes);
         out["curves"] =
@@ -278,20 +269,28 @@ class Details {
         return all.size() - 1;
     }
 
+    /// Of all persons; as many as two of NTU's where the dataset does not tell.
+    static double joints_a_frame(const std::filesystem::path& path) {
+        try {
+            const ingest::Dataset dataset(path);
+            return static_cast<double>(dataset.header().persons * dataset.header().topology.joints());
+        } catch (const Error&) {
+            return 50;
+        }
+    }
+
     /// What most_samples motions of every class of every row would add to the page, about.
     double motion_bytes() const {
         constexpr double bytes_a_joint = 3 * 2 * 4.0 / 3;
         double sum = 0;
+        std::map<std::string, double>
+            joints;  // of each dataset, which rows share and which takes time to open
         for (const auto& row : measured_.rows) {
             const auto* run = row.shown();
             if (!run) continue;
-            double bodies = 50;  // joints of all persons of a frame, where the dataset does not tell
-            try {
-                const ingest::Dataset dataset(run->dataset);
-                bodies = static_cast<double>(dataset.header().persons * dataset.header().topology.joints());
-            } catch (const Error&) {
-            }
-            sum += static_cast<double>(classes_of(run->scored).labels.size()) * usual_frames * bodies *
+            const auto path = run->dataset.string();
+            if (!joints.contains(path)) joints[path] = joints_a_frame(run->dataset);
+            sum += static_cast<double>(classes_of(run->scored).labels.size()) * usual_frames * joints[path] *
                    bytes_a_joint * options_.most_samples;
         }
         return 1.25 * sum;  // with the real ones, which rows share

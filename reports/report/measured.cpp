@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "kernels/error.hpp"
+#include "reports/report/reading.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -13,25 +13,12 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// The member's text; empty where there is none or it is something else.
-std::string text(const Json& object, const char* key) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 /// The member's elements that are objects.
 std::vector<Json> objects(const Json& object, const char* key) {
-    const auto found = object.find(key);
     std::vector<Json> out;
-    if (found != object.end() && found->is_array())
-        std::ranges::copy_if(*found, std::back_inserter(out),
-                             [](const Json& one) { return one.is_object(); });
+    std::ranges::copy_if(list(object, key), std::back_inserter(out),
+                         [](const Json& one) { return one.is_object(); });
     return out;
-}
-
-Json parsed(const fs::path& path) {
-    std::ifstream file(path);
-    return Json::parse(file, nullptr, false);
 }
 
 Json read_results(const fs::path& folder) {
@@ -39,11 +26,11 @@ Json read_results(const fs::path& folder) {
     if (!fs::is_regular_file(path))
         throw Error("{}: no results.json in it; give the folder that `actformer sweep FILE -o FOLDER` wrote",
                     folder.string());
-    auto json = parsed(path);
-    if (!json.is_object() || !json.contains("rows") || !json["rows"].is_array())
+    auto json = read_json(path);
+    if (!member(json, "rows").is_array())
         throw Error("{}: damaged, or not a sweep's results; `actformer sweep` again writes it anew",
                     path.string());
-    if (json.value("format", Json()) != Json(1))
+    if (member(json, "format") != Json(1))
         throw Error("{}: results of another version of actformer; `actformer sweep` again writes them anew",
                     path.string());
     return json;
@@ -52,7 +39,7 @@ Json read_results(const fs::path& folder) {
 /// What the scores of a run that is done say; null and a notice where they cannot be read.
 Json read_scores(const MeasuredRun& run, const std::string& row, std::vector<std::string>& notices) {
     if (run.status != "done") return {};
-    auto json = parsed(run.scores);
+    auto json = read_json(run.scores);
     if (json.is_object()) return json;
     notices.push_back(fmt::format("{}, seed {}: {} is {}; `actformer sweep` again makes it anew", row,
                                   run.seed, run.scores.string(),
@@ -62,8 +49,7 @@ Json read_scores(const MeasuredRun& run, const std::string& row, std::vector<std
 
 MeasuredRun read_run(const Json& json, const fs::path& folder) {
     MeasuredRun run;
-    if (const auto seed = json.find("seed"); seed != json.end() && seed->is_number_unsigned())
-        run.seed = *seed;
+    if (const auto& seed = member(json, "seed"); seed.is_number_unsigned()) run.seed = seed;
     run.status = text(json, "status");
     run.why = text(json, "why");
     const auto path = [&](const char* key) {
@@ -81,18 +67,16 @@ MeasuredRun read_run(const Json& json, const fs::path& folder) {
 
 /// "660 synthetic clips (seed 1)", "recordings in a.zip and b.zip".
 std::string data_in_words(const Json& row) {
-    const auto found = row.find("data");
+    const auto& data = member(row, "data");
     const auto name = "‘" + text(row, "dataset") + "’";
-    if (found == row.end() || !found->is_object()) return name;
-    if (const auto clips = found->find("synthetic"); clips != found->end() && clips->is_number_unsigned())
+    if (const auto& clips = member(data, "synthetic"); clips.is_number_unsigned())
         return fmt::format("{}: {} clips of synthetic people, no one was recorded", name,
-                           clips->get<std::uint64_t>());
+                           clips.get<std::uint64_t>());
     std::string raw;
-    if (const auto files = found->find("raw"); files != found->end() && files->is_array())
-        for (const auto& file : *files)
-            if (file.is_string()) raw += (raw.empty() ? "" : ", ") + file.get<std::string>();
+    for (const auto& file : list(data, "raw"))
+        if (file.is_string()) raw += (raw.empty() ? "" : ", ") + file.get<std::string>();
     if (!raw.empty()) return fmt::format("{}: recordings in {}", name, raw);
-    const auto path = text(*found, "path");
+    const auto path = text(data, "path");
     return path.empty() ? name : fmt::format("{}: the dataset in {}", name, path);
 }
 
@@ -103,9 +87,8 @@ MeasuredRow read_row(const Json& json, const std::string& sweep, const fs::path&
     row.name = text(json, "name");
     row.status = text(json, "status");
     row.why = text(json, "why");
-    if (const auto fills = json.find("fills"); fills != json.end() && fills->is_array())
-        for (const auto& cell : *fills)
-            if (cell.is_string()) row.fills.push_back(cell);
+    for (const auto& cell : list(json, "fills"))
+        if (cell.is_string()) row.fills.push_back(cell);
     row.dataset = text(json, "dataset");
     row.split = text(json, "split");
     row.data = data_in_words(json);

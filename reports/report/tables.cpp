@@ -7,6 +7,7 @@
 
 #include "eval/score_report.hpp"
 #include "kernels/error.hpp"
+#include "reports/report/reading.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -17,13 +18,9 @@ using Json = nlohmann::ordered_json;
 std::vector<double> repeats_of(const MeasuredRow& row, const std::string& metric) {
     std::vector<double> values;
     const double scale = metric == "accuracy" ? 100 : 1;
-    for (const auto& run : row.runs) {
-        if (!run.scored.is_object() || !run.scored.contains(metric)) continue;
-        const auto& said = run.scored[metric];
-        if (!said.is_object() || !said.contains("repeats") || !said["repeats"].is_array()) continue;
-        for (const auto& value : said["repeats"])
+    for (const auto& run : row.runs)
+        for (const auto& value : list(member(run.scored, metric.c_str()), "repeats"))
             if (value.is_number()) values.push_back(scale * value.get<double>());
-    }
     return values;
 }
 
@@ -82,23 +79,16 @@ void mark_best(FilledTable& table) {
         }
 }
 
-std::string short_text(const Json& object, const char* key) {
-    const auto found = object.find(key);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 /// What the scores say of where they come from.
 void add_score_lines(const Json& scored, std::vector<std::string>& lines) {
-    const auto from = scored.value("provenance", Json::object());
-    if (!from.is_object()) return;
-    const auto real = from.value("real", Json::object()), eyes = from.value("recogniser", Json::object());
-    if (real.is_object() && real.contains("fingerprint"))
-        lines.push_back(fmt::format("real side: {}, split {}, fingerprint {}", short_text(real, "dataset"),
-                                    short_text(real, "split"),
-                                    short_text(real, "fingerprint").substr(0, 16)));
-    if (eyes.is_object() && eyes.contains("checksum"))
-        lines.push_back("recogniser: checksum " + short_text(eyes, "checksum").substr(0, 16));
-    if (from.contains("version")) lines.push_back("actformer " + short_text(from, "version"));
+    const auto& from = member(scored, "provenance");
+    const auto &real = member(from, "real"), &eyes = member(from, "recogniser");
+    if (!member(real, "fingerprint").is_null())
+        lines.push_back(fmt::format("real side: {}, split {}, fingerprint {}", text(real, "dataset"),
+                                    text(real, "split"), text(real, "fingerprint").substr(0, 16)));
+    if (!member(eyes, "checksum").is_null())
+        lines.push_back("recogniser: checksum " + text(eyes, "checksum").substr(0, 16));
+    if (!member(from, "version").is_null()) lines.push_back("actformer " + text(from, "version"));
 }
 
 }  // namespace
