@@ -4,11 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cstdlib>
+#include <cstdint>
 #include <cstring>
-#include <memory>
 #include <utility>
 
 #include "ingest/aside.hpp"
@@ -61,24 +59,24 @@ bool write_fully(int fd, std::string_view bytes) {
     return true;
 }
 
-// What large files are written in past the page cache: copying them into it costs a processor as much as reading ten times
-// as many bytes of text, and drives that text out.
-constexpr std::size_t direct_block = 4096, direct_piece = std::size_t{1} << 20;
+// What devices want of what is written past the page cache: that it begins at such a block and is some of them long.
+constexpr std::size_t direct_block = 4096;
+// Copying much into the page cache costs a processor as much as reading ten times as many bytes of text, and drives that text out.
+constexpr std::size_t much = std::size_t{1} << 20;
 
-/// Writes whole blocks from the front of `bytes` directly and removes them from it; none where the file system will not.
-/// Direct writing is off when it returns.
+/// Writes whole blocks from the front of `bytes` past the page cache and removes them from it; none where the file system
+/// will not, or where there are few or they do not begin at a block. Direct writing is off when it returns.
 void write_blocks_directly(int fd, std::string_view& bytes) {
     const int flags = ::fcntl(fd, F_GETFL);
-    if (bytes.size() < direct_piece || ::fcntl(fd, F_SETFL, flags | O_DIRECT) != 0) return;
-    const std::unique_ptr<char, decltype(&std::free)> piece(
-        static_cast<char*>(std::aligned_alloc(direct_block, direct_piece)), &std::free);
-    while (piece && bytes.size() >= direct_block) {
-        const auto size = std::min(bytes.size() / direct_block * direct_block, direct_piece);
-        std::memcpy(piece.get(), bytes.data(), size);
-        const auto put = ::write(fd, piece.get(), size);
+    if (bytes.size() < much || reinterpret_cast<std::uintptr_t>(bytes.data()) % direct_block != 0 ||
+        ::fcntl(fd, F_SETFL, flags | O_DIRECT) != 0)
+        return;
+    while (bytes.size() >= direct_block) {
+        const auto put = ::write(fd, bytes.data(), bytes.size() / direct_block * direct_block);
         if (put < 0 && errno == EINTR) continue;
-        if (put <= 0 || static_cast<std::size_t>(put) % direct_block != 0) break;  // write_fully says why
+        if (put <= 0) break;  // write_fully says why
         bytes.remove_prefix(static_cast<std::size_t>(put));
+        if (static_cast<std::size_t>(put) % direct_block != 0) break;
     }
     ::fcntl(fd, F_SETFL, flags);
 }

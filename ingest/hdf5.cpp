@@ -224,12 +224,12 @@ std::vector<std::string> Reader::attribute_texts(const std::string& name) const 
     return unpacked(text, attribute.count, size);
 }
 
-Writer::Writer(std::size_t expected_bytes) {
+// Beside the values there are their names and shapes.
+Writer::Writer(std::size_t expected_bytes)
+    : memory_(std::make_unique<FileMemory>(expected_bytes + expected_bytes / 64 + (std::size_t{1} << 20))) {
     silence();
-    const std::size_t step =
-        expected_bytes + expected_bytes / 64 + (std::size_t{1} << 20);  // so that it grows once
     const auto access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making a file in memory");
-    H5Pset_fapl_core(access.get(), step, false);
+    memory_->serve(access.get());
     file_ = checked(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose,
                     "making a file in memory");
 }

@@ -5,10 +5,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "ingest/hdf5_memory.hpp"
 
 namespace actformer::ingest::hdf5 {
 
@@ -126,7 +129,7 @@ class Writer {
     void write_rows(const std::string& name, const Shape& shape, std::uint64_t first,
                     std::span<const float> values);
 
-    /// Calls `use` with the bytes of a file in memory.
+    /// Calls `use` with the bytes of a file in memory, which begin at a page.
     void image(const std::function<void(std::string_view)>& use);
 
     /// Closes a file on disk. False where not all of it could be written.
@@ -137,7 +140,8 @@ class Writer {
     Handle create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk);
     void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
                     hsize_t rows_a_chunk);
-    Handle file_;
+    std::unique_ptr<FileMemory> memory_;  ///< of a file that is not on disk
+    Handle file_;                         ///< behind the memory, which it needs to the end
 };
 
 }  // namespace actformer::ingest::hdf5

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t groups_at_once = 2;  // in memory as text
-constexpr std::size_t groups_ahead = 2;    // parsed and waiting to be cleaned: enough to ride out a slow one
+constexpr std::size_t groups_ahead = 6;    // parsed and waiting to be cleaned: enough to ride out a slow one
 
 using Clock = std::chrono::steady_clock;
 

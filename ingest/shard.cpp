@@ -33,7 +33,7 @@ void ShardBuilder::image(const std::string& settings, const std::string& fingerp
     std::vector<std::span<const float>> motion;
     std::vector<float> bones;
     for (const auto& piece : pieces_) {
-        motion.emplace_back(piece.motion);
+        motion.push_back(piece.motion);
         bones.insert(bones.end(), piece.bone_length.begin(), piece.bone_length.end());
     }
     const hsize_t n = clips_.size(), p = header_->persons, k = header_->topology.joints();

@@ -3,11 +3,53 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "kernels/device.hpp"
 
 namespace actformer::kernels {
+
+/// Values of a buffer as host memory for as long as it lives, in place where the device shares memory. The device must not
+/// use them meanwhile. May end in any thread.
+template <typename T>
+class Mapping {
+  public:
+    Mapping() = default;
+    Mapping(Device& device, const cl::Buffer& memory, std::size_t count, cl_map_flags how)
+        : queue_(device.queue()), memory_(memory) {
+        if (count == 0) return;
+        try {
+            values_ = {static_cast<T*>(queue_.enqueueMapBuffer(memory_, CL_TRUE, how, 0, count * sizeof(T))),
+                       count};
+        } catch (const cl::Error& e) {
+            raise(device.info(), "mapping device memory", e);
+        }
+    }
+    ~Mapping() {
+        // Fails only where the device is lost, which the next call reports.
+        if (!values_.empty())
+            clEnqueueUnmapMemObject(queue_(), memory_(), values_.data(), 0, nullptr, nullptr);
+    }
+    Mapping(Mapping&& other) noexcept { swap(other); }
+    Mapping& operator=(Mapping&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+
+    std::span<T> values() const { return values_; }
+
+  private:
+    void swap(Mapping& other) noexcept {
+        std::swap(queue_, other.queue_);
+        std::swap(memory_, other.memory_);
+        std::swap(values_, other.values_);
+    }
+
+    cl::CommandQueue queue_;
+    cl::Buffer memory_;
+    std::span<T> values_;
+};
 
 /// `count` values of T on a device. Copies share the memory, as OpenCL's handles do.
 template <typename T>
@@ -55,41 +97,23 @@ class Buffer {
     }
 
     std::vector<T> download() const {
-        if (count_ == 0) return {};
-        const Mapped all(*this, CL_MAP_READ);
-        return {all.values, all.values + count_};
+        const auto all = map();
+        return {all.values().begin(), all.values().end()};
+    }
+
+    /// All values, to be read, once all that was launched before is done.
+    Mapping<T> map() const {
+        return count_ == 0 ? Mapping<T>() : Mapping<T>(*device_, memory_, count_, CL_MAP_READ);
     }
 
     /// Calls `fill` with a span over all values, to be written; where the device shares memory, in place. What `fill` leaves
     /// out is undefined.
     template <typename Fill>
     void write_with(Fill fill) {
-        if (count_ == 0) return;
-        const Mapped all(*this, CL_MAP_WRITE);
-        fill(std::span<T>(all.values, count_));
+        if (count_ > 0) fill(Mapping<T>(*device_, memory_, count_, CL_MAP_WRITE).values());
     }
 
   private:
-    /// All values as host memory for as long as it lives.
-    struct Mapped {
-        Mapped(const Buffer& of, cl_map_flags how) : buffer(of) {
-            try {
-                values = static_cast<T*>(buffer.device_->queue().enqueueMapBuffer(
-                    buffer.memory_, CL_TRUE, how, 0, buffer.count_ * sizeof(T)));
-            } catch (const cl::Error& e) {
-                raise(buffer.device_->info(), "mapping device memory", e);
-            }
-        }
-        ~Mapped() {
-            // Fails only where the device is lost, which the next call reports.
-            clEnqueueUnmapMemObject(buffer.device_->queue()(), buffer.memory_(), values, 0, nullptr, nullptr);
-        }
-        Mapped(const Mapped&) = delete;
-        Mapped& operator=(const Mapped&) = delete;
-        const Buffer& buffer;
-        T* values = nullptr;
-    };
-
     Device* device_ = nullptr;
     std::size_t count_ = 0;
     cl::Buffer memory_;

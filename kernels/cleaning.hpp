@@ -33,8 +33,10 @@ struct Smoothing {
 
 /// clip i's frames follow clip i-1's.
 struct CleanedBatch {
-    std::vector<float> motion;  ///< (total frames, P, K, 3): unit limbs, and the re-centred root in metres
+    std::span<const float>
+        motion;  ///< (total frames, P, K, 3): unit limbs, and the re-centred root in metres
     std::vector<float> bone_length;  ///< (clips, P, K) metres, the mean over frames; 0 for the root
+    Mapping<float> memory;           ///< where `motion` lies: as large as it is, it is not copied from there
 };
 
 /// Limbs of every frame on the device: values (total frames, P, pitch), the K*3 numbers of a body first; what follows them

@@ -9,7 +9,7 @@
 
 #include "ingest/text/number.hpp"
 
-#if defined(__AVX512VBMI2__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && \
+#if defined(__AVX512VBMI__) && defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && \
     defined(__BMI2__)
 #include <immintrin.h>
 #define ACTFORMER_THREE_AT_ONCE
@@ -19,11 +19,6 @@ namespace actformer::ingest {
 
 /// Three coordinates, and a spare value so that vector units can store all at once.
 using Point = std::array<double, 4>;
-
-/// Reads the first three of the fields that stand in the 64 characters at `p`, of which `blank` says which are blank,
-/// where they are written as sensors nearly always write them: [-]D.DDDDDDDD. False, with any values, for other
-/// fields, however sound. Values may be off by the last bit or two of a double, which float32 limbs never see.
-inline bool read_three_plainly(const char* p, std::uint64_t blank, Point& values);
 
 namespace detail {
 
@@ -82,12 +77,16 @@ inline bool read_three_one_by_one(const char* p, std::uint64_t blank, Point& val
 
 namespace detail {
 
-/// Which of 64 characters make up three numbers.
+/// Where three numbers stand in 64 characters, each with one digit before its point.
 struct PlainDigits {
-    std::uint64_t digits;  ///< all of them, in all three
-    std::uint64_t slots;   ///< the same, each number's moved to the beginning of 16 bits of its own
+    std::uint64_t slots;   ///< of 16 bits a number, as many as it has digits
+    std::uint32_t points;  ///< of 8 bits a number, where its point is
     __mmask8 minus;        ///< a bit a number
 };
+
+inline unsigned first_of(std::uint64_t mask) {
+    return static_cast<unsigned>(std::countr_zero(mask));
+}
 
 inline bool find_plain_digits(__m512i less_0, std::uint64_t blank, PlainDigits& found) {
     const std::uint64_t digit = _mm512_cmplt_epu8_mask(less_0, _mm512_set1_epi8(10));
@@ -100,16 +99,24 @@ inline bool find_plain_digits(__m512i less_0, std::uint64_t blank, PlainDigits& 
     const std::uint64_t begins = ~blank & behind_blank & region;
     const std::uint64_t minuses = minus & begins, leads = begins + minuses;  // the sum steps over a minus
     const std::uint64_t dot_1 = dot & region, dot_2 = dot_1 & (dot_1 - 1), dot_3 = dot_2 & (dot_2 - 1);
-    const auto slot = [](std::uint64_t dots,
-                         std::uint64_t ends) {  // one digit before the point, the rest behind
-        return _bzhi_u64(0xFFFF, static_cast<unsigned>(std::countr_zero(ends) - std::countr_zero(dots)));
-    };
-    found.digits = digit & region;
-    found.slots = slot(dot_1, end_1) | slot(dot_2, end_2) << 16 | slot(dot_3, end_3) << 32;
+    const auto at_1 = first_of(dot_1), at_2 = first_of(dot_2), at_3 = first_of(dot_3);
+    found.points = at_1 | at_2 << 8 | at_3 << 16;
+    // One digit before the point, the rest behind.
+    found.slots = _bzhi_u64(0xFFFF, first_of(end_1) - at_1) |
+                  _bzhi_u64(0xFFFF, first_of(end_2) - at_2) << 16 |
+                  _bzhi_u64(0xFFFF, first_of(end_3) - at_3) << 32;
     found.minus = static_cast<__mmask8>(_pext_u64(minuses, begins));
     const std::uint64_t odd =
         (leads ^ dot_1 >> 1) | (leads & ~digit) | ((region & ~(digit | dot | blank)) ^ minuses);
-    return end_3 != 0 && odd == 0 && std::popcount(found.digits) == std::popcount(found.slots);
+    return end_3 != 0 && odd == 0 && std::popcount(digit & region) == std::popcount(found.slots);
+}
+
+/// Byte i is of(i).
+template <typename Of>
+inline __m512i bytes_of(Of of) {
+    std::array<std::int8_t, 64> bytes;
+    for (int i = 0; i < 64; ++i) bytes[static_cast<std::size_t>(i)] = static_cast<std::int8_t>(of(i));
+    return _mm512_loadu_si512(bytes.data());
 }
 
 }  // namespace detail
@@ -119,9 +126,13 @@ inline bool read_three_at_once(const char* p, std::uint64_t blank, Point& values
     const __m512i less_0 = _mm512_sub_epi8(_mm512_loadu_si512(p), _mm512_set1_epi8('0'));
     detail::PlainDigits found;
     if (!detail::find_plain_digits(less_0, blank, found)) return false;
-    // 16 characters a number, zeros behind its digits, so that all have their points at the same place.
+    // 16 characters a number, zeros behind its digits, so that all have their points at the same place. The first digit
+    // stands one before the point, the others behind.
+    const __m512i number = detail::bytes_of([](int i) { return i / 16; });
+    const __m512i from_point = detail::bytes_of([](int i) { return i % 16 == 0 ? -1 : i % 16; });
+    const __m512i points = _mm512_shuffle_epi8(_mm512_set1_epi32(static_cast<int>(found.points)), number);
     const __m512i digits =
-        _mm512_maskz_expand_epi8(found.slots, _mm512_maskz_compress_epi8(found.digits, less_0));
+        _mm512_maskz_permutexvar_epi8(found.slots, _mm512_add_epi8(points, from_point), less_0);
     // Neighbours join into numbers of 2, 4, then 8 digits, the lower one counting for more.
     const __m512i twos = _mm512_maddubs_epi16(digits, _mm512_set1_epi16(10 | 1 << 8));
     const __m512i fours = _mm512_madd_epi16(twos, _mm512_set1_epi32(100 | 1 << 16));
@@ -130,22 +141,24 @@ inline bool read_three_at_once(const char* p, std::uint64_t blank, Point& values
     const __m512d scale = _mm512_setr_pd(1e-7, 1e-15, 1e-7, 1e-15, 1e-7, 1e-15, 1e-7, 1e-15);
     const __m512d halves = _mm512_mul_pd(_mm512_cvtepi64_pd(eights), scale);
     const __m512d sums = _mm512_add_pd(halves, _mm512_permute_pd(halves, 0x55));
-    const __m256d magnitudes = _mm512_castpd512_pd256(_mm512_maskz_compress_pd(0x55, sums));
+    const __m256d magnitudes =
+        _mm512_castpd512_pd256(_mm512_permutexvar_pd(_mm512_setr_epi64(0, 2, 4, 6, 0, 2, 4, 6), sums));
     _mm256_storeu_pd(values.data(),
                      _mm256_mask_xor_pd(magnitudes, found.minus, magnitudes, _mm256_set1_pd(-0.0)));
     return true;
 }
 
-inline bool read_three_plainly(const char* p, std::uint64_t blank, Point& values) {
-    return read_three_at_once(p, blank, values);
-}
-
-#else
-
-inline bool read_three_plainly(const char* p, std::uint64_t blank, Point& values) {
-    return read_three_one_by_one(p, blank, values);
-}
-
 #endif
+
+/// Reads the first three of the fields that stand in the 64 characters at `p`, of which `blank` says which are blank,
+/// where they are written as sensors nearly always write them: [-]D.DDDDDDDD. False, with any values, for other
+/// fields, however sound. Values may be off by the last bit or two of a double, which float32 limbs never see.
+inline bool read_three_plainly(const char* p, std::uint64_t blank, Point& values) {
+#ifdef ACTFORMER_THREE_AT_ONCE
+    return read_three_at_once(p, blank, values);
+#else
+    return read_three_one_by_one(p, blank, values);
+#endif
+}
 
 }  // namespace actformer::ingest

@@ -69,8 +69,15 @@ TEST(WriteWhole, WritesAnySizeAndReplaces) {
     for (const std::size_t size : {0UL, 1UL, 4095UL, 1UL << 20, (2UL << 20) + 4097}) {
         std::string text(size, 'x');
         for (std::size_t i = 0; i < size; i += 97) text[i] = static_cast<char>('a' + i % 26);
-        ingest::write_whole(dir / "a", text);
-        EXPECT_EQ(read_file(dir / "a"), text) << size;
-        EXPECT_EQ(files_in(dir.path()), 1U);
+        for (const std::size_t into_page :
+             {0UL, 1UL}) {  // from a page's beginning on it may go past the page cache
+            std::vector<char> room(size + 2 * 4096);
+            const auto misfit = reinterpret_cast<std::uintptr_t>(room.data()) % 4096;
+            auto* at = room.data() + 4096 - misfit + into_page;
+            std::copy(text.begin(), text.end(), at);
+            ingest::write_whole(dir / "a", {at, size});
+            EXPECT_EQ(read_file(dir / "a"), text) << size << " from " << into_page;
+            EXPECT_EQ(files_in(dir.path()), 1U);
+        }
     }
 }

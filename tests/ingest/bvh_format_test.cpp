@@ -80,7 +80,7 @@ kernels::CleanedBatch cleaned(const BvhFormat& format, const std::vector<std::st
     return format.clean(device, 0, clips, frames);
 }
 
-void expect_near(const std::vector<float>& got, const std::vector<double>& want) {
+void expect_near(std::span<const float> got, const std::vector<double>& want) {
     ASSERT_EQ(got.size(), want.size());
     for (std::size_t i = 0; i < want.size(); ++i) EXPECT_NEAR(got[i], want[i], 1e-5) << i;
 }

@@ -206,7 +206,8 @@ TEST(Cleaning, KeepsAZeroLimbZero) {
     std::fill(s.limbs.begin(), s.limbs.end(), 0.0F);
     kernels::Device device;
     const auto cleaned = clean(device, s.batch, on(device, s.limbs), {});
-    EXPECT_EQ(cleaned.motion, std::vector<float>(4 * 2 * 3, 0.0F));
+    EXPECT_EQ(std::vector<float>(cleaned.motion.begin(), cleaned.motion.end()),
+              std::vector<float>(4 * 2 * 3, 0.0F));
 }
 
 TEST(Cleaning, CleansNothingToNothing) {
