@@ -10,6 +10,8 @@
 #include <optional>
 
 #include "cli/bench.hpp"
+#include "cli/peer.hpp"
+#include "cli/scratch.hpp"
 #include "eval/recogniser.hpp"
 #include "eval/tuning.hpp"
 #include "kernels/error.hpp"
@@ -61,13 +63,11 @@ Breakdown time_steps(kernels::Device& device, const eval::Weights& weights, cons
     return best;
 }
 
-/// Runs a command that prints a number, its first line of complaint going to standard error; none where it fails.
+/// The number that a command prints; none where it fails.
 std::optional<double> ask(const std::string& line) {
-    std::string said;
-    FILE* pipe = ::popen(line.c_str(), "r");
-    for (int c; pipe && (c = std::fgetc(pipe)) != EOF;) said += static_cast<char>(c);
+    const auto said = output_of(line);
     double value = 0;
-    if (!pipe || ::pclose(pipe) != 0 || std::sscanf(said.c_str(), "%lf", &value) != 1) return {};
+    if (!said || std::sscanf(said->c_str(), "%lf", &value) != 1) return {};
     return value;
 }
 
@@ -75,7 +75,7 @@ struct Peers {
     std::optional<double> torch, onnx;
 };
 
-/// A scratch folder with the weights and the exported network, gone with the benchmark.
+/// The peers, and a folder with the weights and the exported network for them.
 class PeerRunner {
   public:
     PeerRunner(const Options& options, const eval::Weights& weights) : options_(options), weights_(weights) {
@@ -83,26 +83,18 @@ class PeerRunner {
         if (!fs::exists(fs::path(options.peers) / "stgcn.py"))
             throw Error("{}: holds no stgcn.py; --peers names the folder of the reference programs",
                         options.peers);
-        auto name = (fs::temp_directory_path() / "actformer-bench-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw Error("{}: no folder can be made there", name);
-        folder_ = name;
-        eval::write_weights(folder_ / "weights.h5", weights);
+        folder_.emplace("bench");
+        eval::write_weights(folder_->path() / "weights.h5", weights);
     }
-    ~PeerRunner() {
-        std::error_code ignored;
-        if (!folder_.empty()) fs::remove_all(folder_, ignored);
-    }
-    PeerRunner(const PeerRunner&) = delete;
-    PeerRunner& operator=(const PeerRunner&) = delete;
 
     /// Sequences a second of each peer at hand, each the best of five by its own clock, two threads.
     void run(Peers& best) {
-        if (folder_.empty()) return;
-        const auto onnx = folder_ / "network.onnx";
+        if (!folder_) return;
+        const auto onnx = folder_->path() / "network.onnx";
         const bool first = !fs::exists(onnx);
         keep(best.torch,
              ask(fmt::format("OMP_NUM_THREADS=2 '{}' '{}/stgcn.py' speed '{}' --frames {} --batch {} {}",
-                             options_.python, options_.peers, (folder_ / "weights.h5").string(),
+                             options_.python, options_.peers, (folder_->path() / "weights.h5").string(),
                              options_.frames, options_.batch,
                              first ? fmt::format("--onnx '{}'", onnx.string()) : "")));
         if (options_.node_modules.empty() || !fs::exists(onnx)) return;
@@ -119,7 +111,7 @@ class PeerRunner {
 
     const Options& options_;
     const eval::Weights& weights_;
-    fs::path folder_;
+    std::optional<Scratch> folder_;
 };
 
 struct Result {

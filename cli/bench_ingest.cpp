@@ -10,7 +10,9 @@
 
 #include "cli/bench.hpp"
 #include "cli/format.hpp"
+#include "cli/peer.hpp"
 #include "cli/progress.hpp"
+#include "cli/scratch.hpp"
 #include "ingest/ntu/actions.hpp"
 #include "ingest/ntu/ntu_format.hpp"
 #include "ingest/pipeline.hpp"
@@ -29,25 +31,6 @@ struct Options {
     int repeats = 3;
     unsigned threads = 0;
     bool json = false;
-};
-
-/// A folder of its own, gone when the benchmark ends.
-struct Scratch {
-    explicit Scratch(const std::string& where) {
-        auto name =
-            (fs::path(where.empty() ? fs::temp_directory_path() : fs::path(where)) / "actformer-bench-XXXXXX")
-                .string();
-        if (!mkdtemp(name.data()))
-            throw Error("{}: no folder can be made there; choose another --folder", name);
-        path = name;
-    }
-    ~Scratch() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    fs::path path;
 };
 
 std::vector<int> one_person_actions() {
@@ -112,7 +95,7 @@ Measured best_of_ours(const Options& options, const Scratch& scratch, kernels::D
     Measured best;
     for (int i = 0; i <= options.repeats; ++i) {  // the first run warms the kernels and the page cache
         const auto before = cpu_seconds();
-        const auto summary = run_ours(options, scratch.path / "raw", scratch.path / "out", device);
+        const auto summary = run_ours(options, scratch.path() / "raw", scratch.path() / "out", device);
         if (i > 0 && (best.cpu == 0 || summary.seconds.wall < best.summary.seconds.wall))
             best = {summary, cpu_seconds() - before};
     }
@@ -122,14 +105,11 @@ Measured best_of_ours(const Options& options, const Scratch& scratch, kernels::D
 /// Clips a second of the reference program, by its own clock, which leaves out Python's start.
 std::optional<double> run_peer(const Options& options, const Scratch& scratch) {
     if (!fs::exists(options.peer)) return {};
-    const auto line = fmt::format("'{}' '{}' '{}' '{}' 2>&1", options.python, options.peer,
-                                  (scratch.path / "raw").string(), (scratch.path / "peer.h5").string());
-    std::string said;
-    FILE* pipe = ::popen(line.c_str(), "r");
-    for (int c; pipe && (c = std::fgetc(pipe)) != EOF;) said += static_cast<char>(c);
+    const auto line = fmt::format("'{}' '{}' '{}' '{}'", options.python, options.peer,
+                                  (scratch.path() / "raw").string(), (scratch.path() / "peer.h5").string());
+    const auto said = output_of(line);
     double clips = 0, seconds = 0;
-    if (!pipe || ::pclose(pipe) != 0 || std::sscanf(said.c_str(), "%lf %lf", &clips, &seconds) != 2)
-        throw Error("{} failed: {}", line, said.substr(0, said.find('\n')));
+    if (!said || std::sscanf(said->c_str(), "%lf %lf", &clips, &seconds) != 2) throw Error("{} failed", line);
     return clips / seconds;
 }
 
@@ -141,14 +121,14 @@ double peak_memory_mib() {
 
 /// Links the clips over and over under new names, so that memory can be watched with more clips than a disk has room for.
 ingest::IngestSummary run_many(const Options& options, const Scratch& scratch, kernels::Device& device) {
-    const auto many = scratch.path / "many";
+    const auto many = scratch.path() / "many";
     fs::create_directories(many);
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(scratch.path / "raw"))
+    for (const auto& entry : fs::directory_iterator(scratch.path() / "raw"))
         if (entry.path().extension() == ".skeleton") files.push_back(entry.path());
     for (std::uint64_t i = 0; i < options.many; ++i)
         fs::create_hard_link(files[i % files.size()], many / copy_name(i));
-    return run_ours(options, many, scratch.path / "out", device);
+    return run_ours(options, many, scratch.path() / "out", device);
 }
 
 double rate(const ingest::IngestSummary& s) {
@@ -193,8 +173,8 @@ void print_text(const Measured& ours, std::optional<double> peer) {
 
 void run(const Options& options) {
     kernels::Device device(options.device);
-    const Scratch scratch(options.folder);
-    make_raw(options, scratch.path / "raw");
+    const Scratch scratch("bench", options.folder);
+    make_raw(options, scratch.path() / "raw");
     const auto ours = best_of_ours(options, scratch, device);
     const auto peer = run_peer(options, scratch);
     auto json = to_json(ours.summary);

@@ -11,6 +11,8 @@
 #include <random>
 
 #include "cli/bench.hpp"
+#include "cli/peer.hpp"
+#include "cli/scratch.hpp"
 #include "eval/features_file.hpp"
 #include "kernels/error.hpp"
 
@@ -67,20 +69,14 @@ struct Peer {
 
 std::optional<Peer> run_peer(const Options& options, const eval::Samples& real, const eval::Samples& made) {
     if (!fs::exists(options.peer)) return {};
-    auto folder = (fs::temp_directory_path() / "actformer-bench-XXXXXX").string();
-    if (!mkdtemp(folder.data())) throw Error("{}: no folder can be made there", folder);
-    write(fs::path(folder) / "real.h5", real);
-    write(fs::path(folder) / "made.h5", made);
-    const auto line =
-        fmt::format("'{}' '{}' '{}/real.h5' '{}/made.h5'", options.python, options.peer, folder, folder);
-    std::string said;
-    FILE* pipe = ::popen(line.c_str(), "r");
-    for (int c; pipe && (c = std::fgetc(pipe)) != EOF;) said += static_cast<char>(c);
-    const bool well = pipe && ::pclose(pipe) == 0;
-    std::error_code ignored;
-    fs::remove_all(folder, ignored);
-    const auto json = nlohmann::json::parse(said, nullptr, false);
-    if (!well || !json.is_object()) throw Error("{} failed; it takes python3 with scipy and h5py", line);
+    const Scratch scratch("bench");
+    const auto real_file = scratch.path() / "real.h5", made_file = scratch.path() / "made.h5";
+    write(real_file, real);
+    write(made_file, made);
+    const auto line = fmt::format("'{}' '{}' '{}' '{}'", options.python, options.peer, real_file.string(),
+                                  made_file.string());
+    const auto json = nlohmann::json::parse(output_of(line).value_or(""), nullptr, false);
+    if (!json.is_object()) throw Error("{} failed; it takes python3 with scipy and h5py", line);
     return Peer{json["mean_seconds"], json["whole_seconds"], json["whole"], json["distances"]};
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cli/bench.hpp"
+#include "cli/peer.hpp"
 #include "kernels/error.hpp"
 #include "model/actformer/speed.hpp"
 
@@ -40,14 +41,10 @@ std::optional<Times> ask_peer(const Options& options) {
     const auto line = fmt::format(
         "OMP_NUM_THREADS={} '{}' '{}' --persons {} --classes {} --frames {} --batch {} --repeats 3",
         r.threads, options.python, program.string(), r.persons, r.classes, r.frames, r.batch);
-    FILE* pipe = ::popen(line.c_str(), "r");
-    if (!pipe) return {};
-    std::array<char, 256> text{};
-    std::string last;
-    while (std::fgets(text.data(), text.size(), pipe)) last = text.data();
+    const auto said = output_of(line).value_or("");
+    const auto last = said.substr(said.substr(0, said.find_last_not_of('\n') + 1).rfind('\n') + 1);
     Times times{};
-    const bool told = std::sscanf(last.c_str(), "%lf %lf %lf", &times[0], &times[1], &times[2]) == 3;
-    if (::pclose(pipe) != 0 || !told) return {};
+    if (std::sscanf(last.c_str(), "%lf %lf %lf", &times[0], &times[1], &times[2]) != 3) return {};
     return times;
 }
 

@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "cli/scratch.hpp"
 #include "eval/labels_file.hpp"
 #include "eval/weights.hpp"
 #include "ingest/checksum.hpp"
@@ -37,32 +39,32 @@ struct Options {
 /// in a temporary folder. Gone when scoring has ended well, the temporary one in any case.
 class WorkFolder {
   public:
-    explicit WorkFolder(const fs::path& out) : kept_(!out.empty()) {
-        if (kept_) {
-            path_ = out.string() + ".work";
-            std::error_code error;
-            fs::create_directories(path_, error);
-            if (error) throw Error("{}: no folder can be made there: {}", path_.string(), error.message());
+    explicit WorkFolder(const fs::path& out) {
+        if (out.empty()) {
+            path_ = temporary_.emplace("score").path();
             return;
         }
-        auto name = (fs::temp_directory_path() / "actformer-score-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw Error("{}: no folder can be made there", name);
-        path_ = name;
+        path_ = out.string() + ".work";
+        std::error_code error;
+        fs::create_directories(path_, error);
+        if (error) throw Error("{}: no folder can be made there: {}", path_.string(), error.message());
     }
     ~WorkFolder() {
         std::error_code ignored;
-        if (!kept_) fs::remove_all(path_, ignored);
-        if (kept_) fs::remove(path_, ignored);  // where nothing is in it yet
+        if (!temporary_) fs::remove(path_, ignored);  // where nothing is in it yet
     }
     WorkFolder(const WorkFolder&) = delete;
     WorkFolder& operator=(const WorkFolder&) = delete;
 
     const fs::path& path() const { return path_; }
-    void done() { kept_ = false; }
+    void done() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
 
   private:
+    std::optional<Scratch> temporary_;
     fs::path path_;
-    bool kept_;
 };
 
 /// Of a generator's weights, or of all files of its folder that decide what it generates.

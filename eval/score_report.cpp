@@ -82,13 +82,12 @@ void warn_of_floor(ScoreReport& report) {
         return;
     }
     const auto& at_best = report.floor->score.fid.mean;
-    for (const auto& metric : metrics)
-        if (std::string_view(metric.name) == "fid_mean")
-            if (const auto got = summary(report, metric); got && at_best && *at_best > got->mean / 2)
-                report.warnings.push_back(
-                    fmt::format("real samples against real ones come to an FIDm of {:.4g}: of {:.4g} much is "
-                                "owed to few samples",
-                                *at_best, got->mean));
+    const auto got = summary(report, *find_metric("fid_mean"));
+    if (got && at_best && *at_best > got->mean / 2)
+        report.warnings.push_back(
+            fmt::format("real samples against real ones come to an FIDm of {:.4g}: of {:.4g} much is "
+                        "owed to few samples",
+                        *at_best, got->mean));
 }
 
 std::optional<double> class_accuracy(const Score& score, std::size_t label) {
@@ -161,6 +160,11 @@ const std::vector<Metric> metrics{
      [](const Score& s) { return s.fid_groups ? std::optional(s.fid_groups->whole) : std::nullopt; }},
     {"diversity", "diversity", false, [](const Score& s) { return s.diversity; }},
     {"multimodality", "multimodality", false, [](const Score& s) { return s.multimodality; }}};
+
+const Metric* find_metric(std::string_view name) {
+    const auto found = std::ranges::find(metrics, name, &Metric::name);
+    return found == metrics.end() ? nullptr : &*found;
+}
 
 ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes, std::size_t repeats,
                           const std::function<Observed(std::size_t)>& generated,

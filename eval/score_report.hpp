@@ -35,6 +35,9 @@ struct Metric {
 };
 extern const std::vector<Metric> metrics;
 
+/// Null where there is none of that name.
+const Metric* find_metric(std::string_view name);
+
 /// Of the repeats that have it; none where none has.
 std::optional<Interval> summary(const ScoreReport& report, const Metric& metric);
 

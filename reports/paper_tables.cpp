@@ -106,8 +106,4 @@ Cell find_cell(const std::string& name) {
     return cell;
 }
 
-bool smaller_is_better(const std::string& metric) {
-    return metric.starts_with("fid");
-}
-
 }  // namespace actformer::reports

@@ -37,7 +37,4 @@ struct Cell {
 /// Throws Error naming the tables, rows or datasets that there are.
 Cell find_cell(const std::string& name);
 
-/// Whether smaller is better.
-bool smaller_is_better(const std::string& metric);
-
 }  // namespace actformer::reports

@@ -10,11 +10,11 @@
 #include "ingest/dataset.hpp"
 #include "kernels/error.hpp"
 #include "reports/gather.hpp"
+#include "reports/reading.hpp"
 #include "reports/report/curves.hpp"
 #include "reports/report/moving.hpp"
 #include "reports/report/packed.hpp"
 #include "reports/report/projection.hpp"
-#include "reports/report/reading.hpp"
 #include "reports/report/tables.hpp"
 
 namespace actformer::reports {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "kernels/error.hpp"
-#include "reports/report/reading.hpp"
+#include "reports/reading.hpp"
 
 namespace actformer::reports {
 namespace {

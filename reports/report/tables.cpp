@@ -7,7 +7,7 @@
 
 #include "eval/score_report.hpp"
 #include "kernels/error.hpp"
-#include "reports/report/reading.hpp"
+#include "reports/reading.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -124,8 +124,13 @@ const char* in_words(CellState state) {
 
 std::string heading_of(const std::string& metric) {
     if (metric == "accuracy") return "Acc. %";
-    const auto found = std::ranges::find_if(eval::metrics, [&](const auto& m) { return m.name == metric; });
-    return found == eval::metrics.end() ? metric : found->heading;
+    const auto* found = eval::find_metric(metric);
+    return found ? found->heading : metric;
+}
+
+bool smaller_is_better(const std::string& metric) {
+    const auto* found = eval::find_metric(metric);
+    return found && found->smaller_is_better;
 }
 
 std::string figure_text(double value) {

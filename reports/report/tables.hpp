@@ -41,6 +41,8 @@ std::vector<FilledTable> fill_tables(Measured& measured);
 /// "Acc.", "FIDm"
 std::string heading_of(const std::string& metric);
 
+bool smaller_is_better(const std::string& metric);
+
 /// Two digits after the point, as the paper has them, more where the number is below 0.1.
 std::string figure_text(double value);
 

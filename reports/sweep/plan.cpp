@@ -71,6 +71,14 @@ class Planner {
         return path;
     }
 
+    /// What should be there, and needs no job then; where it is not, `job` stands for it and says so.
+    Made at_hand(const std::string& path, const char* what, Job job) {
+        const auto at = found(path, job);
+        if (job.problem.empty()) return {{}, at};
+        job.commands = {{what, at}};
+        return {add(std::move(job)), at};
+    }
+
     /// The contents that a file has now are part of the fingerprint.
     std::string with_contents(const std::string& path, Job& job) {
         const auto at = found(path, job);
@@ -105,10 +113,9 @@ class Planner {
         job.kind = "ingest";
         job.title = "dataset " + name;
         if (!d.path.empty()) {
-            const auto path = found(d.path, job);
-            if (job.problem.empty()) return {{}, path, clips_in(path)};
-            job.commands = {{"dataset", path}};
-            return {add(std::move(job)), path};
+            auto made = at_hand(d.path, "dataset", std::move(job));
+            if (!made.job) made.clips = clips_in(made.path);
+            return made;
         }
         Words ingest{"{program}", "ingest", d.format};
         if (d.clips > 0) {
@@ -158,12 +165,7 @@ class Planner {
         Job job;
         job.kind = "recogniser";
         job.title = "recogniser " + name;
-        if (!r.weights.empty()) {
-            const auto path = found(r.weights, job);
-            if (job.problem.empty()) return {{}, path};
-            job.commands = {{"weights", path}};
-            return {add(std::move(job)), path};
-        }
+        if (!r.weights.empty()) return at_hand(r.weights, "weights", std::move(job));
         const auto data = dataset(r.data);
         need(job, data);
         job.commands = {{"{program}", "train", "recogniser"}};

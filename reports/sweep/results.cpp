@@ -4,22 +4,15 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <fstream>
-
 #include "ingest/file.hpp"
 #include "kernels/error.hpp"
+#include "reports/reading.hpp"
 
 namespace actformer::reports {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-Json read_json(const fs::path& path) {
-    std::ifstream file(path);
-    auto json = Json::parse(file, nullptr, false);
-    return json.is_object() ? json : Json::object();
-}
 
 /// Whether some process works on the job: it holds the lock then.
 bool is_locked(const fs::path& lock) {
@@ -35,13 +28,13 @@ JobStatus status_of(const fs::path& folder) {
     if (fs::exists(folder / "done.json")) {
         out.state = JobState::done;
         const auto json = read_json(folder / "done.json");
-        if (json.contains("seconds") && json["seconds"].is_number()) out.seconds = json["seconds"];
+        if (const auto& seconds = member(json, "seconds"); seconds.is_number()) out.seconds = seconds;
     } else if (is_locked(folder / "lock")) {
         out.state = JobState::running;
     } else if (fs::exists(folder / "failed.json")) {
         out.state = JobState::failed;
-        const auto json = read_json(folder / "failed.json");
-        out.why = json.contains("why") && json["why"].is_string() ? json["why"].get<std::string>() : "?";
+        const auto why = text(read_json(folder / "failed.json"), "why");
+        out.why = why.empty() ? "?" : why;
     }
     return out;
 }

@@ -9,6 +9,7 @@
 
 #include "ingest/file.hpp"
 #include "kernels/error.hpp"
+#include "reports/reading.hpp"
 #include "reports/sweep/process.hpp"
 #include "reports/sweep/run.hpp"
 
@@ -19,8 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 Json submitted_before(const fs::path& out) {
-    std::ifstream file(out / "slurm.json");
-    auto json = Json::parse(file, nullptr, false);
+    auto json = read_json(out / "slurm.json");
     return json.is_object() ? json : Json::object();
 }
 

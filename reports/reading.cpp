@@ -1,4 +1,4 @@
-#include "reports/report/reading.hpp"
+#include "reports/reading.hpp"
 
 #include <fstream>
 
