@@ -10,7 +10,7 @@
 #include "eval/tuning.hpp"
 #include "eval/view.hpp"
 #include "ingest/checksum.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::eval {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ingest/hdf5/reader.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::eval {

@@ -8,7 +8,7 @@
 
 #include "eval/scores.hpp"
 #include "ingest/aside.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/writer.hpp"
 
 namespace actformer::eval {
 

@@ -5,7 +5,8 @@
 #include <random>
 
 #include "ingest/aside.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
+#include "ingest/hdf5/writer.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::eval {

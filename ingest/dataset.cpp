@@ -5,7 +5,7 @@
 
 #include "ingest/checksum.hpp"
 #include "ingest/dataset_json.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
 #include "ingest/ntu/name.hpp"
 #include "ingest/shard.hpp"
 #include "kernels/error.hpp"

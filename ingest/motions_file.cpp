@@ -1,7 +1,8 @@
 #include "ingest/motions_file.hpp"
 
 #include "ingest/aside.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
+#include "ingest/hdf5/writer.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest {

@@ -1,6 +1,7 @@
 #include "ingest/shard.hpp"
 
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
+#include "ingest/hdf5/writer.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest {

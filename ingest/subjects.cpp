@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "ingest/dataset.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
+#include "ingest/hdf5/writer.hpp"
 #include "kernels/error.hpp"
 
 namespace actformer::ingest {

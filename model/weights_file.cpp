@@ -1,7 +1,7 @@
 #include "model/weights_file.hpp"
 
 #include "ingest/file.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/writer.hpp"
 
 namespace actformer::model {
 

@@ -5,7 +5,8 @@
 
 #include "ingest/checksum.hpp"
 #include "ingest/file.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
+#include "ingest/hdf5/writer.hpp"
 #include "kernels/error.hpp"
 #include "model/actformer/gan.hpp"
 

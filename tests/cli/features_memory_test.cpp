@@ -6,7 +6,7 @@
 #include <random>
 
 #include "eval/tuning.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
 #include "ingest/motions_file.hpp"
 #include "kernels/device.hpp"
 #include "tests/support/command.hpp"

@@ -7,7 +7,7 @@
 
 #include "eval/features.hpp"
 #include "ingest/dataset.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
 #include "ingest/motions_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/plain_recogniser.hpp"

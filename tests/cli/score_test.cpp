@@ -10,6 +10,7 @@
 #include "eval/features_file.hpp"
 #include "eval/weights.hpp"
 #include "ingest/dataset.hpp"
+#include "ingest/hdf5/reader.hpp"
 #include "ingest/motions_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/writer.hpp"
 #include "kernels/error.hpp"
 #include "tests/support/plain_recogniser.hpp"
 #include "tests/support/temp_dir.hpp"

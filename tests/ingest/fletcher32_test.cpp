@@ -7,7 +7,8 @@
 #include <functional>
 #include <random>
 
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
+#include "ingest/hdf5/writer.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;

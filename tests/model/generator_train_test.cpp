@@ -12,7 +12,7 @@
 
 #include "eval/weights.hpp"
 #include "ingest/dataset.hpp"
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
 #include "ingest/motions_file.hpp"
 #include "model/actformer/gan_settings.hpp"
 #include "model/actformer/generator_trainer.hpp"

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "ingest/hdf5.hpp"
+#include "ingest/hdf5/reader.hpp"
 #include "ingest/motions_file.hpp"
 #include "kernels/error.hpp"
 #include "model/weights_file.hpp"

@@ -1,4 +1,4 @@
-#include "ingest/hdf5_memory.hpp"
+#include "ingest/hdf5/file_memory.hpp"
 
 #include <algorithm>
 #include <cstring>
