@@ -11,8 +11,7 @@ using namespace actformer::test;
 namespace {
 
 bool has_training() {
-    return std::filesystem::exists(std::filesystem::path(ACTFORMER_PROGRAM).parent_path() /
-                                   "actformer-train");
+    return std::filesystem::exists(std::filesystem::path(program()).parent_path() / "actformer-train");
 }
 
 }  // namespace

@@ -48,10 +48,10 @@ struct Memory : testing::Test {
         writer.finish();
     }
     CommandResult features(const std::string& before, const std::string& out) const {
-        return run_command(
-            before + "XDG_CACHE_HOME=" + dir.path().string() + " POCL_CACHE_DIR=" + (dir / "pocl").string() +
-            " " ACTFORMER_PROGRAM " features --batch 4096 --recogniser " + (dir / "w.h5").string() + " " +
-            (dir / "m.h5").string() + " -o " + (dir / out).string());
+        return run_command(before + "XDG_CACHE_HOME=" + dir.path().string() +
+                           " POCL_CACHE_DIR=" + (dir / "pocl").string() + " " + program() +
+                           " features --batch 4096 --recogniser " + (dir / "w.h5").string() + " " +
+                           (dir / "m.h5").string() + " -o " + (dir / out).string());
     }
     TempDir dir;
 };

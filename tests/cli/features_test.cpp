@@ -82,7 +82,7 @@ const fs::path& dataset() {
 }
 
 bool has_torch() {
-    static const bool has = fs::exists(ACTFORMER_SHARED "/reference/stgcn.py") &&
+    static const bool has = fs::exists(shared("reference/stgcn.py")) &&
                             run_command("/usr/bin/python3 -c 'import h5py, torch'").exit == 0;
     return has;
 }
@@ -190,7 +190,7 @@ TEST_F(Features, RefuseDatasetsOfAnotherKind) {
 
 TEST_F(Features, AgreeWithTheReference) {
     if (!has_torch())
-        GTEST_SKIP() << "needs " ACTFORMER_SHARED "/reference/stgcn.py, and python3 with torch and h5py";
+        GTEST_SKIP() << "needs " << shared("reference/stgcn.py") << ", and python3 with torch and h5py";
     struct Case {
         std::uint32_t persons, frames;
         bool ntu;
@@ -205,9 +205,9 @@ TEST_F(Features, AgreeWithTheReference) {
                 c.persons, static_cast<std::uint32_t>(parents.size()));
         const auto frames = "--frames " + std::to_string(c.frames);
         ASSERT_EQ(features("m.h5", frames).exit, 0);
-        const auto oracle = run_command("OMP_NUM_THREADS=2 /usr/bin/python3 " ACTFORMER_SHARED
-                                        "/reference/stgcn.py features " +
-                                        at("w.h5") + " " + at("m.h5") + " " + at("o.h5") + " " + frames);
+        const auto oracle =
+            run_command("OMP_NUM_THREADS=2 /usr/bin/python3 " + shared("reference/stgcn.py") + " features " +
+                        at("w.h5") + " " + at("m.h5") + " " + at("o.h5") + " " + frames);
         ASSERT_EQ(oracle.exit, 0) << oracle.output;
         const Reader ours(dir / "f.h5"), theirs(dir / "o.h5");
         for (const auto* name : {"features", "logits"})

@@ -82,8 +82,8 @@ TEST_F(IngestNtu, AgreesWithTheReferenceOnHardClips) {
          skeleton_text(40, {with_gaps("b", b, {20}), with_gaps("a", a, {21}), with_gaps("c", c, {22})}));
     clip("S001C001P001R001A120", skeleton_text(40, {always_seen("alone", a)}));  // too few persons
     std::string folders = raw();
-    if (fs::exists(ACTFORMER_SHARED "/data/ntu_sample"))
-        fs::copy(ACTFORMER_SHARED "/data/ntu_sample", dir / "raw",
+    if (fs::exists(shared("data/ntu_sample")))
+        fs::copy(shared("data/ntu_sample"), dir / "raw",
                  fs::copy_options::recursive | fs::copy_options::overwrite_existing);
 
     ASSERT_EQ(ingest().exit, 0);
@@ -91,8 +91,8 @@ TEST_F(IngestNtu, AgreesWithTheReferenceOnHardClips) {
         const auto name = fmt::format("{}p", persons), ours = (dir / name).string() + ".h5";
         ASSERT_EQ(run_actformer("export " + out() + "/ntu-" + name + " -o " + ours).exit, 0);
         const auto oracle = (dir / name).string() + "-oracle.h5";
-        ASSERT_EQ(run_command(fmt::format("/usr/bin/python3 {}/reference/preprocess.py {} {} --persons {}",
-                                          ACTFORMER_SHARED, folders, oracle, persons))
+        ASSERT_EQ(run_command(fmt::format("/usr/bin/python3 {} {} {} --persons {}",
+                                          shared("reference/preprocess.py"), folders, oracle, persons))
                       .exit,
                   0);
         const MotionsFile mine(ours), theirs(oracle);
@@ -189,9 +189,9 @@ TEST_F(IngestNtu, RefusesWhatIsWiderThanAClip) {
     clip("S001C001P001R001A001", plain_clip());
     expect_refused(ingest("--missing " + (dir / "none").string()), {"none: cannot be read"});
     expect_refused(ingest("--device no-such-thing"), {"--device no-such-thing: no such OpenCL device"});
-    expect_refused(run_command("OCL_ICD_VENDORS=/nonexistent " ACTFORMER_PROGRAM " ingest ntu " + raw() +
-                               " -o " + out()),
-                   {"no OpenCL device", "pocl-opencl-icd"});
+    expect_refused(
+        run_command("OCL_ICD_VENDORS=/nonexistent " + program() + " ingest ntu " + raw() + " -o " + out()),
+        {"no OpenCL device", "pocl-opencl-icd"});
     write_file(dir / "broken.zip", "PK\x03\x04 and then nothing");
     expect_refused(run_actformer("ingest ntu " + (dir / "broken.zip").string() + " -o " + out()),
                    {"broken.zip"});
@@ -247,8 +247,8 @@ TEST_F(IngestNtu, EndsInTheSameBytesHoweverOftenItIsKilled) {
     int kills = 0;
     for (;;) {
         const auto seconds = 0.15 + 0.002 * static_cast<double>(random() % 300) + 0.05 * kills;
-        const auto result = run_command(fmt::format("timeout -s KILL {} {} ingest ntu {} -o {}", seconds,
-                                                    ACTFORMER_PROGRAM, raw(), out()));
+        const auto result = run_command(
+            fmt::format("timeout -s KILL {} {} ingest ntu {} -o {}", seconds, program(), raw(), out()));
         if (result.exit == 0) break;
         ASSERT_EQ(result.exit, 137) << result.output;
         EXPECT_FALSE(fs::exists(out()) && !fs::exists(out() + "/ingest.json")) << "half an output";
@@ -338,8 +338,8 @@ TEST_F(IngestNtu, RefusesADamagedDatasetFile) {
 
 TEST_F(IngestNtu, PrintsJson) {
     clip("S001C001P001R001A001", plain_clip());
-    const auto result = run_command(std::string(ACTFORMER_PROGRAM) + " ingest ntu " + raw() + " -o " + out() +
-                                    " --json 2>/dev/null");
+    const auto result =
+        run_command(program() + " ingest ntu " + raw() + " -o " + out() + " --json 2>/dev/null");
     const auto json = nlohmann::json::parse(result.output);
     EXPECT_EQ(json["files"], 1);
     EXPECT_EQ(json["datasets"][0]["clips"], 1);

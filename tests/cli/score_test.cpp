@@ -79,7 +79,7 @@ struct Score : testing::Test {
 
     std::string at(const std::string& name) const { return (dir / name).string(); }
     CommandResult score(const std::string& arguments) const {
-        return run_command("XDG_CACHE_HOME=" + at("cache") + " " ACTFORMER_PROGRAM " score " + arguments);
+        return run_command("XDG_CACHE_HOME=" + at("cache") + " " + program() + " score " + arguments);
     }
     nlohmann::json scored(const std::string& arguments) const {
         const auto result = score(arguments + " --json");
@@ -103,8 +103,8 @@ struct Score : testing::Test {
     }
 
     nlohmann::json oracle(const std::string& real, const std::string& made) const {
-        const auto result = run_command("/usr/bin/python3 " ACTFORMER_SHARED "/reference/fid.py " + at(real) +
-                                        " " + at(made));
+        const auto result =
+            run_command("/usr/bin/python3 " + shared("reference/fid.py") + " " + at(real) + " " + at(made));
         EXPECT_EQ(result.exit, 0) << result.output;
         return nlohmann::json::parse(result.output, nullptr, false);
     }
@@ -126,8 +126,7 @@ std::vector<std::uint32_t> labels_of(const std::vector<std::size_t>& counts) {
 }  // namespace
 
 TEST_F(Score, OfMotionsAgreesWithTheReference) {
-    if (!has_reference_python())
-        GTEST_SKIP() << "needs " ACTFORMER_SHARED "/reference, and python3 with h5py";
+    if (!has_reference_python()) GTEST_SKIP() << "needs " << shared("reference") << ", and python3 with h5py";
     motions("m.h5", 4, 6);
     const auto json = scored(one_person() + "--generated " + at("m.h5") + " --keep-features " + at("kept"));
     const auto theirs = oracle("kept/real.h5", "kept/generated.h5");
@@ -186,8 +185,7 @@ void group_features(const TempDir& dir, const std::vector<ingest::Motion>& group
 }  // namespace
 
 TEST_F(Score, OfGroupsSeesEveryPersonAlone) {
-    if (!has_reference_python())
-        GTEST_SKIP() << "needs " ACTFORMER_SHARED "/reference, and python3 with h5py";
+    if (!has_reference_python()) GTEST_SKIP() << "needs " << shared("reference") << ", and python3 with h5py";
     motions("m.h5", 2, 5, 2, 1, 20);
     const auto json = scored(two_persons() + "--window 20 --single-recogniser " + at("one.h5") +
                              " --generated " + at("m.h5"));
@@ -219,8 +217,7 @@ TEST_F(Score, OfGroupsSeesEveryPersonAlone) {
 }
 
 TEST_F(Score, OfFeaturesNeedsNoRecogniser) {
-    if (!has_reference_python())
-        GTEST_SKIP() << "needs " ACTFORMER_SHARED "/reference, and python3 with h5py";
+    if (!has_reference_python()) GTEST_SKIP() << "needs " << shared("reference") << ", and python3 with h5py";
     features("r.h5", labels_of({30, 40, 12}), 32, 3, 1);
     features("g.h5", labels_of({20, 9, 50}), 32, 3, 2);
     const auto json = scored("--real-features " + at("r.h5") + " --generated-features " + at("g.h5") +
@@ -237,8 +234,7 @@ TEST_F(Score, OfFeaturesNeedsNoRecogniser) {
 }
 
 TEST_F(Score, ReadsFeaturesThatAnotherToolWrote) {
-    if (!has_reference_python())
-        GTEST_SKIP() << "needs " ACTFORMER_SHARED "/reference, and python3 with h5py";
+    if (!has_reference_python()) GTEST_SKIP() << "needs " << shared("reference") << ", and python3 with h5py";
     // Double precision, whole numbers of another size, names of any length: what h5py writes unasked. The distance is a
     // millionth of the features' size, out of single precision's reach.
     write_file(dir / "write.py",
@@ -326,13 +322,13 @@ TEST_F(Score, KeepsTheRealSide) {
     fs::remove_all(dir / "cache");
     const auto both = run_command(
         fmt::format("for i in 1 2; do (XDG_CACHE_HOME={} {} score {} --json >{}/$i.json) & done; wait",
-                    at("cache"), ACTFORMER_PROGRAM, arguments, dir.path().string()));
+                    at("cache"), program(), arguments, dir.path().string()));
     EXPECT_EQ(both.output, "");
     EXPECT_EQ(nlohmann::json::parse(read_file(dir / "1.json")), first) << "two at once";
     EXPECT_EQ(nlohmann::json::parse(read_file(dir / "2.json")), first);
 
     write_file(dir / "no-folder/actformer", "");
-    const auto without = run_command("XDG_CACHE_HOME=" + at("no-folder") + " " ACTFORMER_PROGRAM " score " +
+    const auto without = run_command("XDG_CACHE_HOME=" + at("no-folder") + " " + program() + " score " +
                                      arguments + " --json");
     EXPECT_EQ(nlohmann::json::parse(without.output), first) << "where there can be no cache";
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "tests/support/paths.hpp"
 #include "tests/support/sweep.hpp"
 
 using namespace actformer::test;
@@ -240,9 +241,9 @@ TEST_F(Sweep, GoesThroughSlurm) {
 
 TEST(SweepFiles, AreSound) {
     std::size_t files = 0;
-    for (const auto& entry : fs::directory_iterator(ACTFORMER_SOURCE "/reports/sweeps")) {
+    for (const auto& entry : fs::directory_iterator(source("reports/sweeps"))) {
         ++files;
-        const auto result = run_command("cd " ACTFORMER_SOURCE " && " ACTFORMER_PROGRAM " sweep " +
+        const auto result = run_command("cd " + source("") + " && " + program() + " sweep " +
                                         entry.path().string() + " -o /nonexistent/out --dry-run");
         EXPECT_EQ(result.exit, 0) << result.output;
     }

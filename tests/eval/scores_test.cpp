@@ -55,7 +55,7 @@ void expect_as_the_reference(const Samples& real, const Samples& generated) {
     const TempDir dir;
     write(dir / "real.h5", real);
     write(dir / "generated.h5", generated);
-    const auto oracle = run_command("/usr/bin/python3 " ACTFORMER_SHARED "/reference/fid.py " +
+    const auto oracle = run_command("/usr/bin/python3 " + shared("reference/fid.py") + " " +
                                     (dir / "real.h5").string() + " " + (dir / "generated.h5").string());
     ASSERT_EQ(oracle.exit, 0) << oracle.output;
     const auto json = nlohmann::json::parse(oracle.output);
@@ -69,8 +69,7 @@ void expect_as_the_reference(const Samples& real, const Samples& generated) {
 }  // namespace
 
 TEST(Scores, AgreeWithTheReference) {
-    if (!has_reference_python())
-        GTEST_SKIP() << "needs " ACTFORMER_SHARED "/reference, and python3 with h5py";
+    if (!has_reference_python()) GTEST_SKIP() << "needs " << shared("reference") << ", and python3 with h5py";
     expect_as_the_reference(made_samples({40, 50, 60}, 16, 1), made_samples({30, 45, 40}, 16, 2, 1.2F));
     // fewer samples than dimensions on one side, on both, and two only
     expect_as_the_reference(made_samples({400, 500, 300}, 64, 3), made_samples({20, 30, 40}, 64, 4, 0.9F));

@@ -9,6 +9,7 @@
 
 #include "ingest/bvh/bvh_format.hpp"
 #include "ingest/source.hpp"
+#include "tests/support/paths.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -135,7 +136,7 @@ void expect_agreement(const PlainClip& clip, const Topology& topology, const ker
 }
 
 TEST(BvhBnr, RealClipsComeOutAsPlainDoublePrecisionHasThem) {
-    const std::filesystem::path archive = ACTFORMER_SHARED "/data/bnr/dataset-1.tar.xz";
+    const std::filesystem::path archive = test::shared("data/bnr/dataset-1.tar.xz");
     if (!std::filesystem::exists(archive)) GTEST_SKIP() << archive << " is not at hand";
     BvhOptions options;
     options.dataset = "bnr-1";

@@ -17,7 +17,7 @@ using namespace actformer::test;
 
 namespace {
 
-const std::string configs = ACTFORMER_SOURCE "/model/configs/";
+const std::string configs = source("model/configs/");
 
 Config with(const std::vector<std::string>& assignments) {
     auto config = generator_config();

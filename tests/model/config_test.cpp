@@ -6,6 +6,7 @@
 #include "kernels/error.hpp"
 #include "model/actformer/gan_settings.hpp"
 #include "model/recogniser_settings.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
@@ -106,7 +107,7 @@ TEST_F(Configs, WritesWhatItReads) {
 
 TEST(ShippedConfigs, AllLoad) {
     std::size_t count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(ACTFORMER_SOURCE "/model/configs")) {
+    for (const auto& entry : std::filesystem::directory_iterator(source("model/configs"))) {
         const bool recogniser = entry.path().filename().string().starts_with("recogniser-");
         auto config = recogniser ? recogniser_config() : generator_config();
         config.load(entry.path());

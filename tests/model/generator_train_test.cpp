@@ -17,6 +17,7 @@
 #include "model/actformer/gan_settings.hpp"
 #include "model/actformer/generator_trainer.hpp"
 #include "model/checkpoint.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/toy_dataset.hpp"
 
 using namespace actformer;
@@ -149,7 +150,7 @@ TEST_F(TrainGenerator, TwoProcessesAreOneWithTwiceTheBatch) {
     const auto port = std::to_string(20000 + ::getpid() % 20000);
     const auto of = [&](int rank) {
         return "env RANK=" + std::to_string(rank) + " WORLD_SIZE=2 LOCAL_RANK=" + std::to_string(rank) +
-               " MASTER_ADDR=127.0.0.1 MASTER_PORT=" + port + " " ACTFORMER_PROGRAM " " +
+               " MASTER_ADDR=127.0.0.1 MASTER_PORT=" + port + " " + program() + " " +
                line("two", "batch=18 discriminator_steps=1 epochs=1 --data-parallel");
     };
     const auto two = run_command(of(1) + " & " + of(0) + "; wait $!");

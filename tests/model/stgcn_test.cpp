@@ -20,7 +20,7 @@ namespace hdf5 = actformer::ingest::hdf5;
 
 namespace {
 
-const std::string oracle = ACTFORMER_SHARED "/reference/stgcn.py";
+const std::string oracle = shared("reference/stgcn.py");
 
 bool has_oracle() {
     return std::filesystem::exists(oracle) &&

@@ -127,7 +127,7 @@ TEST_F(TrainRecogniser, SaysWhichClassesHaveNoClip) {
 }
 
 TEST(ModelCommand, CountsParameters) {
-    const std::string config = ACTFORMER_SOURCE "/model/configs/recogniser-ntu-1p.yaml";
+    const std::string config = source("model/configs/recogniser-ntu-1p.yaml");
     const auto json = nlohmann::json::parse(run_actformer("model --json " + config).output);
     std::int64_t sum = 0;
     for (const auto& layer : json.at("layers")) sum += layer.at("parameters").get<std::int64_t>();
@@ -136,5 +136,5 @@ TEST(ModelCommand, CountsParameters) {
     const auto text = run_actformer("model " + config + " width=0.5");
     EXPECT_EQ(text.exit, 0);
     EXPECT_NE(text.output.find("total"), std::string::npos);
-    EXPECT_EQ(run_actformer("model " ACTFORMER_SOURCE "/model/configs/recogniser-small.yaml").exit, 1);
+    EXPECT_EQ(run_actformer("model " + source("model/configs/recogniser-small.yaml")).exit, 1);
 }

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/paths.hpp"
+
 namespace actformer::test {
 
 struct CommandResult {
@@ -32,7 +34,7 @@ inline CommandResult run_command(const std::string& line) {
 
 /// The program built beside the tests.
 inline CommandResult run_actformer(const std::string& arguments) {
-    return run_command(std::string(ACTFORMER_PROGRAM) + " " + arguments);
+    return run_command(program() + " " + arguments);
 }
 
 /// The same program running beside the test, gone at the latest with this.
@@ -40,8 +42,7 @@ class Child {
   public:
     explicit Child(const std::string& arguments, const std::string& output = "/dev/null") : pid_(::fork()) {
         if (pid_ != 0) return;
-        const auto command =
-            "trap '' XFSZ; exec " ACTFORMER_PROGRAM " " + arguments + " >" + output + " 2>&1";
+        const auto command = "trap '' XFSZ; exec " + program() + " " + arguments + " >" + output + " 2>&1";
         ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
         ::_exit(127);
     }
@@ -82,7 +83,7 @@ inline void expect_refused(const CommandResult& result, const std::vector<std::s
 
 /// Debian's own Python with the modules that the reference programs need.
 inline bool has_reference_python() {
-    return std::filesystem::exists(ACTFORMER_SHARED "/reference/preprocess.py") &&
+    return std::filesystem::exists(shared("reference/preprocess.py")) &&
            run_command("/usr/bin/python3 -c 'import h5py, scipy'").exit == 0;
 }
 

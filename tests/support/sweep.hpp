@@ -53,8 +53,8 @@ struct SweepFixture : testing::Test {
                        more + "rows:\n" + rows);
     }
     std::string command(const std::string& more = "") const {
-        return std::string(ACTFORMER_PROGRAM) + " sweep " + at("sweep.yaml") + " -o " + at("out") +
-               " --program " + at("actformer") + " " + more;
+        return program() + " sweep " + at("sweep.yaml") + " -o " + at("out") + " --program " +
+               at("actformer") + " " + more;
     }
     CommandResult sweep(const std::string& more = "") const { return run_command(command(more)); }
     std::string at(const std::string& name) const { return (dir / name).string(); }

@@ -1,0 +1,17 @@
+#include "tests/support/paths.hpp"
+
+namespace actformer::test {
+
+std::string program() {
+    return ACTFORMER_PROGRAM;
+}
+
+std::string source(const std::string& file) {
+    return ACTFORMER_SOURCE "/" + file;
+}
+
+std::string shared(const std::string& file) {
+    return ACTFORMER_SHARED "/" + file;
+}
+
+}  // namespace actformer::test
