@@ -59,8 +59,6 @@ bool write_fully(int fd, std::string_view bytes) {
     return true;
 }
 
-// What devices want of what is written past the page cache: that it begins at such a block and is some of them long.
-constexpr std::size_t direct_block = 4096;
 // Copying much into the page cache costs a processor as much as reading ten times as many bytes of text, and drives that text out.
 constexpr std::size_t much = std::size_t{1} << 20;
 

@@ -20,6 +20,9 @@ std::string_view read_text(const std::filesystem::path& path, std::vector<char>&
 /// Calls `use` with a file's bytes in order, a megabyte or so at a time. Throws Error where it cannot be read.
 void read_in_pieces(const std::filesystem::path& path, const std::function<void(std::string_view)>& use);
 
+/// What devices want of what is written past the page cache: that it begins at such a block and is some of them long.
+constexpr std::size_t direct_block = 4096;
+
 /// Writes `bytes` beside `path` and renames, so that `path` is whole or absent. Throws Error (no space, no right to write)
 /// and leaves nothing behind.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);

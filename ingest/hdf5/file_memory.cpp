@@ -4,12 +4,14 @@
 #include <cstring>
 #include <utility>
 
+#include "ingest/file.hpp"
+
 namespace actformer::ingest::hdf5 {
 namespace {
 
 // The library grows a file by such steps, and zeroes what it grows by: as little as that is still in the processor's cache
 // when its values come, and no more than a page of it is left over at the end.
-constexpr std::size_t page = 4096;
+constexpr std::size_t page = direct_block;
 
 }  // namespace
 
