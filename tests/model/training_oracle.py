@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Trains the recogniser in eager PyTorch, in float64, on batches that it is given: what our own training must follow.
 
-usage: training_oracle.py WEIGHTS.h5 BATCHES.h5
-BATCHES holds x (steps, N, C, T, K), labels (steps, N) and rates (steps); WEIGHTS where to begin. Nothing is dropped out. Prints
+usage: training_oracle.py WEIGHTS.h5 BATCHES.h5 fused|plain
+BATCHES holds x (steps, N, C, T, K), labels (steps, N), rates (steps) and seeds (steps) of dropout; WEIGHTS where to begin. What is
+dropped out is what the program's own layers drop (fused) or what libtorch does after the same seed (plain). Prints
 {"losses": one a step, "logits": of the first batch at the end, by the running statistics}.
 """
 import json, os, sys
@@ -23,6 +24,30 @@ def public_name(name):
     return name.replace('importance.', 'edge_importance.').replace('layers.', 'st_gcn_networks.').replace('.conv.', '.gcn.conv.')
 
 
+def kept(count, seed):
+    """Which of the numbers are kept at a half's chance: a hash of place and seed, 32 bits wide."""
+    low, high = np.uint32(seed % 2**32), np.uint32(seed // 2**32)
+    h = np.arange(count, dtype=np.uint32) * np.uint32(0x9E3779B1) ^ low
+    h = (h ^ h >> 16) * np.uint32(0x85EBCA6B) + high
+    h = (h ^ h >> 13) * np.uint32(0xC2B2AE35)
+    return h ^ h >> 16 >= 2**31
+
+
+class HashedDropout(torch.nn.Module):
+    """Drops what the fused layers do: they hash places in (N, T, K, C), with a seed of each layer's own."""
+
+    def __init__(self, layer):
+        super().__init__()
+        self.layer, self.seed = layer, 0
+
+    def forward(self, x):
+        if not self.training:
+            return x
+        n, c, t, k = x.shape
+        mask = kept(x.numel(), (self.seed + self.layer * 0x9E3779B97F4A7C15) % 2**64).reshape(n, t, k, c)
+        return 2 * x * torch.from_numpy(mask).permute(0, 3, 1, 2)
+
+
 def start(path):
     with h5py.File(path) as file:
         shape = Shape()
@@ -35,10 +60,19 @@ def start(path):
             for name, value in net.state_dict().items():
                 if name != 'a' and not name.endswith('num_batches_tracked'):
                     value.copy_(torch.from_numpy(file[public_name(name)][()].astype(np.float64)))
-    for module in net.modules():
-        if isinstance(module, torch.nn.Dropout):
-            module.p = 0
     return net
+
+
+def drop_as_fused_layers(net):
+    """What sets the seed."""
+    drops = [HashedDropout(i) for i in range(len(net.layers))]
+    for layer, drop in zip(net.layers, drops):
+        layer.tcn[4] = drop
+
+    def seed_with(seed):
+        for drop in drops:
+            drop.seed = seed
+    return seed_with
 
 
 def main():
@@ -46,9 +80,12 @@ def main():
     with h5py.File(sys.argv[2]) as file:
         batches = torch.from_numpy(file['x'][()].astype(np.float64))
         labels, rates = torch.from_numpy(file['labels'][()].astype(np.int64)), file['rates'][()]
+        seeds = [int(seed) for seed in file['seeds'][()]]
+    seed_with = drop_as_fused_layers(net) if sys.argv[3] == 'fused' else torch.manual_seed
     sgd = torch.optim.SGD([w for w in net.parameters() if w.requires_grad], 1, 0.9, weight_decay=1e-4, nesterov=True)
     losses = []
-    for x, y, rate in zip(batches, labels, rates):
+    for x, y, rate, seed in zip(batches, labels, rates, seeds):
+        seed_with(seed)
         for group in sgd.param_groups:
             group['lr'] = float(rate)
         sgd.zero_grad(set_to_none=True)
