@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <future>
 #include <memory>
 
 #include "eval/view.hpp"
@@ -11,8 +10,7 @@
 #include "model/actformer/gan.hpp"
 #include "model/actformer/generator_file.hpp"
 #include "model/actformer/health.hpp"
-#include "model/actformer/judge.hpp"
-#include "model/actformer/motion_maker.hpp"
+#include "model/actformer/trials.hpp"
 #include "model/blas.hpp"
 #include "model/checkpoint.hpp"
 #include "model/rate_drops.hpp"
@@ -25,18 +23,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-constexpr std::uint64_t scoring_draws = 2;  // of step_seed: neither the latents' nor the discriminator's
-
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-/// Scores on their way, and the weights that they are of.
-struct Trial {
-    std::uint64_t epoch = 0, step = 0;
-    std::vector<Array> weights;
-    std::future<JudgeScores> scores;
-};
 
 class Training {
   public:
@@ -57,9 +46,7 @@ class Training {
     void look();
     Losses losses_of(const std::vector<double>& sums, std::uint64_t steps) const;
     void end_epoch();
-    void begin_trial();
     void end_trial();
-    Labelled motions_to_score();
     bool write(const std::function<void()>& something) const;
     void log(const Json& line) const {
         write([&] { folder_->log(line); });
@@ -85,7 +72,7 @@ class Training {
     kernels::ClipStore clips_;
     RandomFeed feed_;
     Gan gan_;
-    std::unique_ptr<Judge> judge_;
+    std::unique_ptr<Trials> trials_;  ///< of rank 0, where there is a recogniser
     std::unique_ptr<RunFolder>
         folder_;  ///< of rank 0, made last: what cannot be trained leaves no folder behind
     Health health_;
@@ -95,7 +82,6 @@ class Training {
     Clock::time_point epoch_start_, kept_;
     std::uint64_t timed_from_ = 0, kept_step_ = 0;
     double epoch_seconds_ = 0;  ///< spent on the running epoch by earlier calls
-    std::optional<Trial> trial_;
     std::optional<GeneratorScores> best_, last_;
 };
 
@@ -158,10 +144,10 @@ Training::Training(const Config& config, const std::filesystem::path& run, bool 
 
 void Training::open_run(const std::filesystem::path& run) {
     if (!settings_.recogniser.empty()) {
-        judge_ = std::make_unique<Judge>(settings_.recogniser, settings_.opencl, dataset_, clips_,
-                                         settings_.frames);
+        trials_ = std::make_unique<Trials>(settings_, dataset_, clips_);
         say(fmt::format("the recogniser knows {:.1f} % of the {} real windows of split {}",
-                        100 * judge_->real_accuracy(), judge_->real_windows(), settings_.train_split));
+                        100 * trials_->judge().real_accuracy(), trials_->judge().real_windows(),
+                        settings_.train_split));
     }
     folder_ = std::make_unique<RunFolder>(run);
     folder_->keep_to(config_, generator_config(), generator_keys_free_to_change());
@@ -201,7 +187,7 @@ void Training::resume() {
         const auto sums = state.at("sums").get<std::vector<double>>();
         for (std::size_t i = 0; i < sums.size(); ++i) gan_.sums()[static_cast<std::int64_t>(i)] = sums[i];
         epoch_seconds_ = state.at("seconds");
-        if (state.contains("best") && judge_ && state.at("recogniser") == judge_->checksum()) {
+        if (state.contains("best") && trials_ && state.at("recogniser") == trials_->judge().checksum()) {
             const auto& b = state.at("best");
             best_ = {b.at("epoch"),     b.at("step"),     b.at("accuracy"),
                      b.at("fid_whole"), b.at("fid_mean"), true};
@@ -262,8 +248,7 @@ void Training::look() {
     end_trial();
     throw Error(
         "{}: stopped at step {}, as {}; the checkpoint of step {} is kept, and other rates or another loss: "
-        "in a "
-        "new -o may help",
+        "in a new -o may help",
         folder_->path().string(), step_, verdict, kept_step_);
 }
 
@@ -289,51 +274,26 @@ void Training::end_epoch() {
          {"seconds", report.seconds},
          {"steps_a_second", report.steps_a_second}});
     if (events_.epoch) events_.epoch(report);
-    if (judge_ && (report.epoch % settings_.score_every == 0 || report.epoch == settings_.epochs))
-        begin_trial();
-}
-
-Labelled Training::motions_to_score() {
-    Labelled all;
-    const MotionMaker maker(gan_.shown(), step_seed(settings_.seed, scoring_draws), settings_.frames);
-    const auto& counted = clips_.table().labels;
-    const auto wanted = std::int64_t{settings_.score_per_class};
-    for (std::uint32_t c = 0; c < subjects_.classes.size(); ++c) {
-        if (std::find(counted.begin(), counted.end(), c) == counted.end()) continue;  // never shown to it
-        for (std::uint32_t i = 0; i * MotionMaker::chunk < wanted; ++i) {
-            const auto made = maker.make(c, i).narrow(
-                0, 0, std::min<std::int64_t>(MotionMaker::chunk, wanted - i * MotionMaker::chunk));
-            const auto* first = made.data_ptr<float>();
-            all.values.insert(all.values.end(), first, first + made.numel());
-            all.labels.insert(all.labels.end(), made.size(0), c);
-        }
+    if (trials_ && (report.epoch % settings_.score_every == 0 || report.epoch == settings_.epochs)) {
+        end_trial();
+        trials_->begin(gan_.shown(), report.epoch, step_);
     }
-    return all;
 }
 
-/// The motions are made now; they are judged while training goes on.
-void Training::begin_trial() {
-    end_trial();
-    trial_.emplace(Trial{epoch(), step_, arrays_of(gan_.shown(), ""), {}});
-    trial_->scores = std::async(std::launch::async, [judge = judge_.get(), motions = motions_to_score()] {
-        return judge->score(motions);
-    });
-}
-
+/// What came of the trial on its way, if there is one.
 void Training::end_trial() {
-    if (!trial_) return;
-    auto trial = std::move(*trial_);
-    trial_.reset();
-    const auto found = trial.scores.get();
-    GeneratorScores scores{trial.epoch, trial.step, found.accuracy, found.fid_whole, found.fid_mean};
+    const auto trial = trials_ ? trials_->end() : std::nullopt;
+    if (!trial) return;
+    const auto& found = trial->scores;
+    GeneratorScores scores{trial->epoch, trial->step, found.accuracy, found.fid_whole, found.fid_mean};
     scores.best =
         (!best_ || scores.fid_whole < best_->fid_whole) && write([&] {
-            save_generator(file("weights-best.h5"), trial.weights, config_, subjects_, notes(trial.step));
+            save_generator(file("weights-best.h5"), trial->weights, config_, subjects_, notes(trial->step));
         });
     log({{"epoch", scores.epoch},
          {"step", scores.step},
          {"accuracy", scores.accuracy},
-         {"real_accuracy", judge_->real_accuracy()},
+         {"real_accuracy", trials_->judge().real_accuracy()},
          {"fid_whole", scores.fid_whole},
          {"fid_mean", scores.fid_mean}});
     last_ = scores;
@@ -360,7 +320,7 @@ Json Training::state_now() {
                {"seed", settings_.seed},  // with the steps done, all there is to the random numbers' state
                {"sums", seen_sums_},
                {"seconds", epoch_seconds_ + seconds_since(epoch_start_)}};
-    if (judge_) state["recogniser"] = judge_->checksum();
+    if (trials_) state["recogniser"] = trials_->judge().checksum();
     if (best_)
         state["best"] = {{"epoch", best_->epoch},
                          {"step", best_->step},
@@ -427,7 +387,7 @@ GeneratorResult Training::run() {
     finish();
     result.best = best_;
     result.last = last_;
-    if (judge_) result.real_accuracy = judge_->real_accuracy();
+    if (trials_) result.real_accuracy = trials_->judge().real_accuracy();
     result.weights = file("weights-last.h5");
     if (settings_.average > 0) result.average_weights = file("weights-average.h5");
     if (best_) result.best_weights = file("weights-best.h5");
