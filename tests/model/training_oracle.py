@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Trains the recogniser in eager PyTorch, in float64, on batches that it is given: what our own training must follow.
+"""Trains the recogniser in eager PyTorch on batches that it is given: what our own training must follow.
 
-usage: training_oracle.py WEIGHTS.h5 BATCHES.h5 fused|plain
-BATCHES holds x (steps, N, C, T, K), labels (steps, N), rates (steps) and seeds (steps) of dropout; WEIGHTS where to begin. What is
-dropped out is what the program's own layers drop (fused) or what libtorch does after the same seed (plain). Prints
-{"losses": one a step, "logits": of the first batch at the end, by the running statistics}.
+usage: training_oracle.py WEIGHTS.h5 LESSONS.h5 fused|plain float64|float32
+LESSONS holds x (steps, N, C, T, K), labels (steps, N), rates and seeds of dropout (steps), and shown (M, C, T, K); WEIGHTS where to
+begin. What is dropped out is what the program's own layers drop (fused) or what libtorch does after the same seed (plain). Prints
+{"losses": one a step, "logits": of what is shown at the end, by the running statistics}.
 """
 import json, os, sys
 import h5py
@@ -48,18 +48,18 @@ class HashedDropout(torch.nn.Module):
         return 2 * x * torch.from_numpy(mask).permute(0, 3, 1, 2)
 
 
-def start(path):
+def start(path, kind):
     with h5py.File(path) as file:
         shape = Shape()
         parents = [int(p) for p in file.attrs['parents']]
         shape.joints, shape.channels, shape.classes = len(parents), int(file.attrs['channels']), int(file.attrs['classes'])
         shape.width = file['st_gcn_networks.0.gcn.conv.weight'].shape[0] / 3 / 64
-        net = Net(shape).double()
+        net = Net(shape).to(kind)
         with torch.no_grad():
             net.a.requires_grad_(False).copy_(torch.from_numpy(partition(parents, int(file.attrs['center']))))
             for name, value in net.state_dict().items():
                 if name != 'a' and not name.endswith('num_batches_tracked'):
-                    value.copy_(torch.from_numpy(file[public_name(name)][()].astype(np.float64)))
+                    value.copy_(torch.from_numpy(file[public_name(name)][()]))
     return net
 
 
@@ -76,26 +76,27 @@ def drop_as_fused_layers(net):
 
 
 def main():
-    net = start(sys.argv[1])
-    with h5py.File(sys.argv[2]) as file:
-        batches = torch.from_numpy(file['x'][()].astype(np.float64))
-        labels, rates = torch.from_numpy(file['labels'][()].astype(np.int64)), file['rates'][()]
-        seeds = [int(seed) for seed in file['seeds'][()]]
+    kind = getattr(torch, sys.argv[4])
+    net = start(sys.argv[1], kind)
     seed_with = drop_as_fused_layers(net) if sys.argv[3] == 'fused' else torch.manual_seed
     sgd = torch.optim.SGD([w for w in net.parameters() if w.requires_grad], 1, 0.9, weight_decay=1e-4, nesterov=True)
-    losses = []
-    for x, y, rate, seed in zip(batches, labels, rates, seeds):
-        seed_with(seed)
-        for group in sgd.param_groups:
-            group['lr'] = float(rate)
-        sgd.zero_grad(set_to_none=True)
-        loss = F.cross_entropy(net(x), y)
-        loss.backward()
-        sgd.step()
-        losses.append(loss.item())
-    net.eval()
-    with torch.no_grad():
-        print(json.dumps({'losses': losses, 'logits': net(batches[0]).flatten().tolist()}))
+    losses, logits = [], []
+    with h5py.File(sys.argv[2]) as file:
+        labels = torch.from_numpy(file['labels'][()].astype(np.int64))
+        for x, y, rate, seed in zip(file['x'], labels, file['rates'], file['seeds']):
+            seed_with(int(seed))
+            for group in sgd.param_groups:
+                group['lr'] = float(rate)
+            sgd.zero_grad(set_to_none=True)
+            loss = F.cross_entropy(net(torch.from_numpy(x).to(kind)), y)
+            loss.backward()
+            sgd.step()
+            losses.append(loss.item())
+        net.eval()
+        with torch.no_grad():
+            for x in torch.from_numpy(file['shown'][()]).split(64):
+                logits += net(x.to(kind)).flatten().tolist()
+    print(json.dumps({'losses': losses, 'logits': logits}))
 
 
 main()
