@@ -1,5 +1,5 @@
 // A whole training of the recogniser beside eager PyTorch's, given the same random numbers: weights to begin with, batches and what
-// is dropped out. What tells the two apart then is rounding alone; in double it does not add up to a window.
+// is dropped out. What tells the two apart then is rounding alone, which training magnifies: in double to a window or none.
 //
 // usage: compare_training DATASET TRAIN_SPLIT TEST_SPLIT [SEED [double|float]]
 // The training is that of recogniser_accuracy.py: a quarter of the width, 14 epochs of windows of 60 frames. On one thread; minutes.
