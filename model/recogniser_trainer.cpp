@@ -69,13 +69,6 @@ std::optional<kernels::ClipStore> load_test_split(kernels::Device& device, const
     return eval::load_view(device, dataset, split).store;
 }
 
-std::vector<at::Tensor> trained(StgcnNet& net) {
-    std::vector<at::Tensor> parameters;
-    for (const auto& info : net.infos())
-        if (info.trained) parameters.push_back(net.weight(info.name));
-    return parameters;
-}
-
 Training::Training(const Config& config, const std::filesystem::path& run, const TrainingEvents& events)
     : config_(config),
       events_(events),
@@ -90,7 +83,7 @@ Training::Training(const Config& config, const std::filesystem::path& run, const
             settings_.frames),
       device_(torch_device(settings_.device)),
       net_(shape_, settings_.seed, device_),
-      sgd_(trained(net_), {settings_.momentum, settings_.weight_decay, settings_.nesterov}),
+      sgd_(net_.trained(), {settings_.momentum, settings_.weight_decay, settings_.nesterov}),
       folder_(run),
       confusion_(shape_.classes) {
     steps_an_epoch_ = (train_clips_.table().clips() + settings_.batch - 1) / settings_.batch;

@@ -135,6 +135,13 @@ StgcnNet::Output StgcnNet::eval_forward(const at::Tensor& x) const {
     return forward(x, Mode::eval, 0);
 }
 
+std::vector<at::Tensor> StgcnNet::trained() const {
+    std::vector<at::Tensor> parameters;
+    for (const auto& info : infos_)
+        if (info.trained) parameters.push_back(weight(info.name));
+    return parameters;
+}
+
 std::vector<Array> StgcnNet::arrays() const {
     std::vector<Array> arrays;
     for (const auto& info : infos_) {

@@ -36,6 +36,9 @@ class StgcnNet {
     at::Tensor& weight(const std::string& name) { return weights_.at(name); }
     const at::Tensor& weight(const std::string& name) const { return weights_.at(name); }
 
+    /// What gradients move, sharing memory with the weights, in the order of infos().
+    std::vector<at::Tensor> trained() const;
+
     /// Every weight as float32, in the order of infos().
     std::vector<Array> arrays() const;
 

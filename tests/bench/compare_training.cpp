@@ -76,12 +76,10 @@ Lessons lessons_of(const kernels::ClipStore& clips, const RecogniserSettings& se
 
 eval::Confusion judge(const Learnt& learnt, const at::Tensor& labels, std::size_t classes) {
     eval::Confusion confusion(classes);
-    for (std::int64_t i = 0; i < labels.numel(); ++i) {
-        const auto first = learnt.logits.begin() + i * static_cast<std::ptrdiff_t>(classes);
-        const auto best = std::max_element(first, first + static_cast<std::ptrdiff_t>(classes));
+    const auto guesses = at::tensor(learnt.logits).view({labels.numel(), -1}).argmax(1);
+    for (std::int64_t i = 0; i < labels.numel(); ++i)
         confusion.add(static_cast<std::size_t>(labels[i].item<std::int64_t>()),
-                      static_cast<std::size_t>(best - first));
-    }
+                      static_cast<std::size_t>(guesses[i].item<std::int64_t>()));
     return confusion;
 }
 
@@ -114,7 +112,7 @@ void compare(const std::string& folder, const std::string& train, const std::str
     lessons.shown = shown.windows;
 
     StgcnNet net(shape, seed, at::kCPU, type);
-    const auto theirs = learn_in_eager_pytorch(net, shape, lessons);
+    const auto theirs = learn_in_eager_pytorch(net, lessons);
     if (!theirs) throw std::runtime_error("eager PyTorch failed");
     const auto ours = learn(net, lessons);
     print(ours, *theirs, steps);

@@ -82,8 +82,7 @@ const fs::path& dataset() {
 }
 
 bool has_torch() {
-    static const bool has = fs::exists(shared("reference/stgcn.py")) &&
-                            run_command("/usr/bin/python3 -c 'import h5py, torch'").exit == 0;
+    static const bool has = fs::exists(shared("reference/stgcn.py")) && has_eager_pytorch();
     return has;
 }
 

@@ -23,8 +23,7 @@ namespace {
 const std::string oracle = shared("reference/stgcn.py");
 
 bool has_oracle() {
-    return std::filesystem::exists(oracle) &&
-           run_command("/usr/bin/python3 -c 'import h5py, torch'").exit == 0;
+    return std::filesystem::exists(oracle) && has_eager_pytorch();
 }
 
 StgcnSettings tiny() {

@@ -45,7 +45,7 @@ TEST(Training, FollowsEagerPyTorchStepByStep) {
     for (const bool fused : {true, false}) {
         StgcnNet net(settings, 3, at::kCPU, at::kDouble);
         net.fused = fused;
-        const auto theirs = learn_in_eager_pytorch(net, settings, lessons);
+        const auto theirs = learn_in_eager_pytorch(net, lessons);
         const auto ours = learn(net, lessons);
         ASSERT_TRUE(theirs);
         // Both in float64, so that only the order of sums differs: 2e-15 was seen. Losses go from 1.95 over 2.2 to 1.3 or 1.6, and

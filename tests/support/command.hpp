@@ -81,6 +81,11 @@ inline void expect_refused(const CommandResult& result, const std::vector<std::s
     for (const auto& word : words) EXPECT_NE(last.find(word), std::string::npos) << word << ": " << last;
 }
 
+/// Debian's own Python with what eager PyTorch's side of a comparison needs.
+inline bool has_eager_pytorch() {
+    return run_command("/usr/bin/python3 -c 'import h5py, torch'").exit == 0;
+}
+
 /// Debian's own Python with the modules that the reference programs need.
 inline bool has_reference_python() {
     return std::filesystem::exists(shared("reference/preprocess.py")) &&

@@ -28,10 +28,7 @@ struct Learnt {
 
 inline Learnt learn(model::StgcnNet& net, const Lessons& lessons) {
     const auto type = net.weight("fcn.weight").scalar_type();
-    std::vector<at::Tensor> trained;
-    for (const auto& info : net.infos())
-        if (info.trained) trained.push_back(net.weight(info.name));
-    model::Sgd sgd(trained, {});
+    model::Sgd sgd(net.trained(), {});
     Learnt out;
     for (std::size_t step = 0; step < lessons.rates.size(); ++step) {
         const auto at = static_cast<std::int64_t>(step);
@@ -49,18 +46,12 @@ inline Learnt learn(model::StgcnNet& net, const Lessons& lessons) {
     return out;
 }
 
-inline bool has_eager_pytorch() {
-    return run_command("/usr/bin/python3 -c 'import h5py, torch'").exit == 0;
-}
-
 /// The same lessons for a network that begins with the same weights, in eager PyTorch (tests/model/training_oracle.py).
 /// Nothing, after a failure of the running test, where it does not work.
-inline std::optional<Learnt> learn_in_eager_pytorch(const model::StgcnNet& start,
-                                                    const model::StgcnSettings& shape,
-                                                    const Lessons& lessons) {
+inline std::optional<Learnt> learn_in_eager_pytorch(const model::StgcnNet& start, const Lessons& lessons) {
     const TempDir dir;
     const auto weights = dir / "start.h5", file = dir / "lessons.h5";
-    model::save_weights(weights, shape, start.arrays(), {});
+    model::save_weights(weights, start.settings(), start.arrays(), {});
     {
         const auto sizes = [](const at::Tensor& t) {
             return ingest::hdf5::Shape(t.sizes().begin(), t.sizes().end());
