@@ -114,7 +114,7 @@ at::Tensor normalised(const at::Tensor& x, const at::Tensor& mean, const at::Ten
 }
 
 at::Tensor inverse_deviation(const at::Tensor& variance) {
-    return (variance + epsilon).rsqrt();
+    return (variance.to(at::kDouble) + epsilon).rsqrt().to(variance.scalar_type());
 }
 
 /// Functions take no undefined tensors: an empty `shortcut` stands for none.

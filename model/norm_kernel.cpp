@@ -10,7 +10,7 @@ namespace actformer::model::cpu {
 namespace {
 
 /// Rows that are summed in T before they join the sums in double.
-constexpr std::int64_t block_rows = 64;
+constexpr std::int64_t block_rows = 16;
 
 /// Which numbers are kept: a hash of the place and the seed against a threshold.
 class Mask {
@@ -55,8 +55,8 @@ std::vector<double> sums_over_rows(std::int64_t rows, std::int64_t channels, int
 }
 
 template <bool relu, bool drop, bool add, typename T>
-void finish_rows(const T* x, std::int64_t rows, std::int64_t channels, const T* scale, const T* shift,
-                 const Mask& mask, T gain, const T* shortcut, T* y, int threads) {
+void finish_rows(const T* x, std::int64_t rows, std::int64_t channels, const T* mean, const T* scale,
+                 const T* bias, const Mask& mask, T gain, const T* shortcut, T* y, int threads) {
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t row = 0; row < rows; ++row) {
         const auto first = row * channels;
@@ -64,7 +64,7 @@ void finish_rows(const T* x, std::int64_t rows, std::int64_t channels, const T* 
         T* to = y + first;
 #pragma omp simd
         for (std::int64_t c = 0; c < channels; ++c) {
-            T v = from[c] * scale[c] + shift[c];
+            T v = (from[c] - mean[c]) * scale[c] + bias[c];
             if constexpr (drop) v = mask.keeps(static_cast<std::uint32_t>(first + c)) ? v * gain : T(0);
             if constexpr (add) v += shortcut[first + c];
             if constexpr (relu) v = v > 0 ? v : T(0);
@@ -182,16 +182,14 @@ void statistics(const T* x, std::int64_t rows, std::int64_t channels, T* mean, T
 template <typename T>
 void norm_forward(const T* x, std::int64_t rows, std::int64_t channels, const Norm<T>& norm,
                   const Finish& finish, const T* shortcut, T* y, int threads) {
-    std::vector<T> scale(static_cast<std::size_t>(channels)), shift(scale.size());
-    for (std::size_t c = 0; c < scale.size(); ++c) {
-        scale[c] = norm.weight[c] * norm.deviation_inverse[c];
-        shift[c] = norm.bias[c] - norm.mean[c] * scale[c];
-    }
+    // The mean is taken off first: folded into the bias, it would cost a channel far from zero its last digits.
+    std::vector<T> scale(static_cast<std::size_t>(channels));
+    for (std::size_t c = 0; c < scale.size(); ++c) scale[c] = norm.weight[c] * norm.deviation_inverse[c];
     const Mask mask(finish);
     const T gain = static_cast<T>(1 / (1 - finish.drop));
     const auto run = [&]<bool relu, bool drop, bool add>() {
-        finish_rows<relu, drop, add>(x, rows, channels, scale.data(), shift.data(), mask, gain, shortcut, y,
-                                     threads);
+        finish_rows<relu, drop, add>(x, rows, channels, norm.mean, scale.data(), norm.bias, mask, gain,
+                                     shortcut, y, threads);
     };
     const bool drop = finish.drop > 0;
     if (!finish.relu)

@@ -4,8 +4,9 @@
 // the next, so that a temporal convolution's tap, or every other frame, is the same product from another first row.
 //
 // Accumulators live in registers: tiles of rows x column vectors that keep both multiplier ports busy. Right-hand
-// matrices are packed in panels of up to 4 vectors of columns, cut in depth so that a panel stays in the first-level cache
-// while all rows of a sample pass over it.
+// matrices are packed in panels of up to 4 vectors of columns, cut in depth: a panel stays in the first-level cache while all
+// rows of a sample pass over it, and float32's rounding grows with the square root of 32, a cut's depth, not of all that is
+// summed. For the same reason a tile sums from zero and joins what is there once, at its end.
 #pragma once
 
 #include <algorithm>
@@ -77,11 +78,7 @@ namespace detail {
 template <typename T, int R, int W>
 inline void product_tile(const T* const* a, const T* b, std::ptrdiff_t depth, T* const* c) {
     using V = typename Vector<T>::type;
-    V sum[R][W];
-#pragma GCC unroll 24
-    for (int r = 0; r < R; ++r)
-#pragma GCC unroll 4
-        for (int w = 0; w < W; ++w) sum[r][w] = *reinterpret_cast<const V*>(c[r] + w * lanes<T>);
+    V sum[R][W] = {};
     const T* row[R];
 #pragma GCC unroll 24
     for (int r = 0; r < R; ++r) row[r] = a[r];
@@ -97,18 +94,18 @@ inline void product_tile(const T* const* a, const T* b, std::ptrdiff_t depth, T*
 #pragma GCC unroll 24
     for (int r = 0; r < R; ++r)
 #pragma GCC unroll 4
-        for (int w = 0; w < W; ++w) *reinterpret_cast<V*>(c[r] + w * lanes<T>) = sum[r][w];
+        for (int w = 0; w < W; ++w) *reinterpret_cast<V*>(c[r] + w * lanes<T>) += sum[r][w];
 }
 
-/// All rows of a column block, a depth chunk at a time. Rows missing in the last tile are stood for by a spare one.
+/// All rows of a column block, a cut at a time. Rows missing in the last tile are stood for by a spare one.
 template <typename T, int W>
 void product_block(Rows<const T> a, const T* b, std::ptrdiff_t depth, Rows<T> c, std::ptrdiff_t frames,
                    std::ptrdiff_t joints) {
     constexpr int R = std::min(tile_registers / W, 12);
-    constexpr std::ptrdiff_t chunk = 128;
+    constexpr std::ptrdiff_t cut = 32;
     T spare[W * lanes<T>] = {};
-    for (std::ptrdiff_t d = 0; d < depth; d += chunk) {
-        const auto deep = std::min(chunk, depth - d);
+    for (std::ptrdiff_t d = 0; d < depth; d += cut) {
+        const auto deep = std::min(cut, depth - d);
         const T* left[R];
         T* out[R];
         int filled = 0;
@@ -135,11 +132,7 @@ template <typename T, int R, int W>
 inline void outer_tile(Rows<const T> a, Rows<const T> g, std::ptrdiff_t frames, std::ptrdiff_t joints,
                        T* sums, std::ptrdiff_t stride) {
     using V = typename Vector<T>::type;
-    V sum[R][W];
-#pragma GCC unroll 16
-    for (int r = 0; r < R; ++r)
-#pragma GCC unroll 4
-        for (int w = 0; w < W; ++w) sum[r][w] = *reinterpret_cast<const V*>(sums + r * stride + w * lanes<T>);
+    V sum[R][W] = {};
     for (std::ptrdiff_t t = 0; t < frames; ++t) {
         const T *left = a.at(t, 0), *right = g.at(t, 0);
         for (std::ptrdiff_t k = 0; k < joints; ++k, left += a.row, right += g.row) {
@@ -155,7 +148,7 @@ inline void outer_tile(Rows<const T> a, Rows<const T> g, std::ptrdiff_t frames, 
 #pragma GCC unroll 16
     for (int r = 0; r < R; ++r)
 #pragma GCC unroll 4
-        for (int w = 0; w < W; ++w) *reinterpret_cast<V*>(sums + r * stride + w * lanes<T>) = sum[r][w];
+        for (int w = 0; w < W; ++w) *reinterpret_cast<V*>(sums + r * stride + w * lanes<T>) += sum[r][w];
 }
 
 template <typename T, int W>

@@ -105,13 +105,14 @@ at::Tensor StgcnNet::fused_layer(const at::Tensor& x, std::size_t i, Mode mode, 
 
 at::Tensor StgcnNet::features(const at::Tensor& input, Mode mode, std::uint64_t dropout_seed) const {
     const auto n = input.size(0), c = input.size(1), t = input.size(2), k = input.size(3);
-    auto x = norm(input.permute({0, 3, 1, 2}).reshape({n, k * c, t}), "data_bn", mode).view({n, k, c, t});
     const auto layers = stgcn_layers(settings_).size();
     if (takes_fused_path()) {
-        x = x.permute({0, 3, 1, 2}).contiguous();
+        auto x = fused_norm_of(input.permute({0, 2, 3, 1}).reshape({n, t, 1, k * c}), "data_bn", mode, false)
+                     .view({n, t, k, c});
         for (std::size_t i = 0; i < layers; ++i) x = fused_layer(x, i, mode, dropout_seed);
         return x.mean({1, 2});
     }
+    auto x = norm(input.permute({0, 3, 1, 2}).reshape({n, k * c, t}), "data_bn", mode).view({n, k, c, t});
     at::manual_seed(dropout_seed);
     x = x.permute({0, 2, 3, 1}).contiguous();
     for (std::size_t i = 0; i < layers; ++i) x = layer(x, i, mode);
