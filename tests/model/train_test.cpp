@@ -58,7 +58,8 @@ TEST_F(TrainRecogniser, TellsToyClassesApart) {
     ASSERT_EQ(result.exit, 0) << result.output;
     const auto json = nlohmann::json::parse(result.output);
     // The toy's three branches mirror one another, and a graph convolution starts blind to which is which: at a rate of 0.1
-    // most seeds never part two of the classes; at this one, eight of eight did. A third is chance. The last epoch may have forgotten a window or two of the 24 that the best one knew.
+    // most seeds never part two of the classes; at this one, eight of eight did.
+    // A third is chance. The last epoch may have forgotten a window or two of the 24 that the best one knew.
     EXPECT_EQ(json.at("best_class_accuracy"), 1.0) << result.output;
     EXPECT_GT(json.at("class_accuracy"), 0.85) << result.output;
     EXPECT_EQ(json.at("confusion").size(), 3U);
