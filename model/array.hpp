@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace actformer::model {
@@ -10,7 +11,7 @@ namespace actformer::model {
 struct Array {
     std::string name;
     std::vector<std::int64_t> shape;
-    std::vector<float> values;  ///< row-major
+    std::variant<std::vector<float>, std::vector<double>> values;  ///< row-major, as exact as they were
 };
 
 }  // namespace actformer::model

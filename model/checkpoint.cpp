@@ -48,13 +48,20 @@ std::optional<std::string_view> take_line(std::string_view& bytes) {
 
 std::optional<Array> take_array(const Json& json, std::string_view& bytes) {
     Array array{json.at("name"), json.at("shape"), {}};
-    const auto count =
-        std::accumulate(array.shape.begin(), array.shape.end(), std::int64_t{1}, std::multiplies<>());
-    const auto size = static_cast<std::size_t>(count) * sizeof(float);
-    if (size > bytes.size()) return std::nullopt;
-    array.values.resize(static_cast<std::size_t>(count));
-    std::memcpy(array.values.data(), bytes.data(), size);
-    bytes.remove_prefix(size);
+    const auto count = static_cast<std::size_t>(
+        std::accumulate(array.shape.begin(), array.shape.end(), std::int64_t{1}, std::multiplies<>()));
+    bool whole = false;
+    const auto take = [&]<typename T>(std::vector<T>& values) {
+        const auto size = count * sizeof(T);
+        whole = size <= bytes.size();
+        if (!whole) return;
+        values.resize(count);
+        std::memcpy(values.data(), bytes.data(), size);
+        bytes.remove_prefix(size);
+    };
+    if (json.value("type", "float32") == "float64") array.values = std::vector<double>();
+    std::visit(take, array.values);
+    if (!whole) return std::nullopt;
     return array;
 }
 
@@ -68,12 +75,16 @@ std::string read_whole(const fs::path& path) {
 
 std::string to_bytes(const Checkpoint& checkpoint) {
     auto arrays = Json::array();
-    for (const auto& array : checkpoint.arrays)
+    for (const auto& array : checkpoint.arrays) {
         arrays.push_back({{"name", array.name}, {"shape", array.shape}});
+        if (std::holds_alternative<std::vector<double>>(array.values)) arrays.back()["type"] = "float64";
+    }
     auto body =
         Json{{"done", checkpoint.done}, {"state", checkpoint.state}, {"arrays", arrays}}.dump() + "\n";
-    for (const auto& array : checkpoint.arrays)
-        body.append(reinterpret_cast<const char*>(array.values.data()), array.values.size() * sizeof(float));
+    const auto append = [&]<typename T>(const std::vector<T>& values) {
+        body.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    };
+    for (const auto& array : checkpoint.arrays) std::visit(append, array.values);
     return std::string(heading) + ingest::checksum(body) + "\n" + body;
 }
 

@@ -26,6 +26,12 @@ Config recogniser_config() {
                    {"nesterov", true, "Nesterov's momentum"},
                    {"weight_decay", 1e-4, "times each weight, added to its gradient", 0, 1},
                    {"seed", std::int64_t{0}, "of weights, windows and dropout", 0, 9e15},
+                   {"precision",
+                    std::string("float32"),
+                    "float32, or float64, whose rounding decides nothing, at half the speed",
+                    std::numeric_limits<double>::lowest(),
+                    std::numeric_limits<double>::max(),
+                    {"float32", "float64"}},
                    {"device", std::string("cpu"), "where libtorch trains: cpu, cuda or cuda:N"},
                    {"opencl", std::string(), "OpenCL device that draws the windows; empty for the usual one"},
                    {"threads", std::int64_t{0}, "processor threads; 0 takes all", 0, 4096}});
@@ -55,6 +61,7 @@ RecogniserSettings recogniser_settings(const Config& config) {
     s.weight_decay = real("weight_decay");
     s.nesterov = config.get<bool>("nesterov");
     s.seed = static_cast<std::uint64_t>(config.get<std::int64_t>("seed"));
+    s.precision = text("precision");
     s.device = text("device");
     s.opencl = text("opencl");
     s.threads = static_cast<int>(config.get<std::int64_t>("threads"));

@@ -24,6 +24,7 @@ struct RecogniserSettings {
     double momentum = 0.9, weight_decay = 1e-4;
     bool nesterov = true;
     std::uint64_t seed = 0;
+    std::string precision = "float32";  ///< or "float64", of weights and of all that training computes
     std::string device,
         opencl;       ///< of libtorch, as in "cpu" or "cuda:0"; of the sampler, as --device elsewhere
     int threads = 0;  ///< 0: as many as the process may use

@@ -12,6 +12,7 @@
 #include "model/run_folder.hpp"
 #include "model/sgd.hpp"
 #include "model/stgcn_net.hpp"
+#include "model/tensor_array.hpp"
 #include "model/training.hpp"
 #include "model/weights_file.hpp"
 
@@ -82,7 +83,7 @@ Training::Training(const Config& config, const std::filesystem::path& run, const
       feed_(train_clips_, {settings_.seed, kernels::ClassSampling::plain, true}, settings_.batch,
             settings_.frames),
       device_(torch_device(settings_.device)),
-      net_(shape_, settings_.seed, device_),
+      net_(shape_, settings_.seed, device_, torch_type(settings_.precision)),
       sgd_(net_.trained(), {settings_.momentum, settings_.weight_decay, settings_.nesterov}),
       folder_(run),
       confusion_(shape_.classes) {
@@ -129,7 +130,8 @@ void Training::resume() {
 }
 
 at::Tensor Training::to_tensor(const Windows& windows) const {
-    return values_of(windows, shape_.channels, settings_.frames, train_clips_.table().joints, device_);
+    return values_of(windows, shape_.channels, settings_.frames, train_clips_.table().joints, device_)
+        .to(torch_type(settings_.precision));
 }
 
 void Training::step(const Windows& windows, double rate, std::uint64_t index) {
@@ -146,7 +148,7 @@ EpochReport Training::train_epoch() {
     EpochReport report;
     report.epoch = epochs_ + 1;
     report.rate = settings_.rate_at(epochs_);
-    loss_sum_ = at::zeros({}, at::TensorOptions(at::kFloat).device(device_));
+    loss_sum_ = at::zeros({}, at::TensorOptions(torch_type(settings_.precision)).device(device_));
     right_sum_ = at::zeros({}, at::TensorOptions(at::kLong).device(device_));
     const auto start = Clock::now();
     const auto all_steps = static_cast<double>(steps_an_epoch_ * settings_.epochs);

@@ -4,6 +4,7 @@
 
 #include "kernels/error.hpp"
 #include "model/fused_layers.hpp"
+#include "model/tensor_array.hpp"
 
 namespace actformer::model {
 namespace {
@@ -145,16 +146,11 @@ std::vector<at::Tensor> StgcnNet::trained() const {
 
 std::vector<Array> StgcnNet::arrays() const {
     std::vector<Array> arrays;
-    for (const auto& info : infos_) {
-        const auto values = weight(info.name).detach().to(at::kCPU, at::kFloat).contiguous();
-        const auto* first = values.data_ptr<float>();
-        arrays.push_back({info.name, info.shape, {first, first + values.numel()}});
-    }
+    for (const auto& info : infos_) arrays.push_back(array_of(info.name, weight(info.name)));
     return arrays;
 }
 
 void StgcnNet::load(const std::vector<Array>& arrays, const std::string& where) {
-    const at::NoGradGuard no_gradients;
     std::map<std::string, const Array*> by_name;
     for (const auto& array : arrays) by_name[array.name] = &array;
     for (const auto& info : infos_) {
@@ -163,8 +159,7 @@ void StgcnNet::load(const std::vector<Array>& arrays, const std::string& where) 
         if (found->second->shape != info.shape)
             throw Error("{}: weight {} has shape ({}), not ({})", where, info.name,
                         fmt::join(found->second->shape, ", "), fmt::join(info.shape, ", "));
-        auto values = found->second->values;
-        weight(info.name).copy_(at::from_blob(values.data(), info.shape, at::kFloat));
+        copy_into(weight(info.name), *found->second, where);
     }
 }
 

@@ -15,7 +15,7 @@ namespace actformer::model {
 
 class StgcnNet {
   public:
-    /// Weights start at random from `seed`, alike on every device. `type` is at::kFloat, or at::kDouble for checks.
+    /// Weights start at random from `seed`, alike on every device. `type` is at::kFloat or at::kDouble.
     StgcnNet(StgcnSettings settings, std::uint64_t seed, const at::Device& device = at::kCPU,
              at::ScalarType type = at::kFloat);
 
@@ -39,7 +39,7 @@ class StgcnNet {
     /// What gradients move, sharing memory with the weights, in the order of infos().
     std::vector<at::Tensor> trained() const;
 
-    /// Every weight as float32, in the order of infos().
+    /// Every weight, in the order of infos().
     std::vector<Array> arrays() const;
 
     /// Throws Error, beginning with `where`, for a weight that is missing or of another shape.

@@ -32,6 +32,10 @@ at::Device torch_device(const std::string& name) {
     }
 }
 
+at::ScalarType torch_type(const std::string& precision) {
+    return precision == "float64" ? at::kDouble : at::kFloat;
+}
+
 ingest::Dataset dataset_to_train_on(const std::string& data) {
     if (data.empty()) throw Error("no dataset: give --data DATASET, or data: in the configuration");
     const auto folders = ingest::datasets_at(data);
@@ -50,21 +54,6 @@ at::Tensor labels_of(const Windows& windows, const at::Device& device) {
     auto labels = at::empty({windows.count}, at::kLong);
     std::copy_n(windows.labels, windows.count, labels.data_ptr<std::int64_t>());
     return sent(labels, device);
-}
-
-Array array_of(std::string name, const at::Tensor& tensor) {
-    const auto values = tensor.detach().to(at::kCPU, at::kFloat).contiguous();
-    const auto* first = values.data_ptr<float>();
-    return {std::move(name), tensor.sizes().vec(), {first, first + values.numel()}};
-}
-
-void copy_into(const at::Tensor& tensor, const Array& array, const std::string& where) {
-    if (static_cast<std::int64_t>(array.values.size()) != tensor.numel())
-        throw Error("{}: '{}' holds {} numbers where {} belong", where, array.name, array.values.size(),
-                    tensor.numel());
-    const at::NoGradGuard no_gradients;
-    auto values = array.values;  // from_blob takes no const
-    tensor.copy_(at::from_blob(values.data(), tensor.sizes(), at::kFloat));
 }
 
 std::string one_line(const c10::Error& error) {

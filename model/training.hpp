@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "ingest/dataset.hpp"
-#include "model/array.hpp"
 #include "model/window_feed.hpp"
 
 namespace actformer::model {
@@ -19,6 +18,9 @@ std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step);
 /// Throws Error where this libtorch cannot work on `name`, as in "cpu" or "cuda:1".
 at::Device torch_device(const std::string& name);
 
+/// Of a configuration's "float32" or "float64".
+at::ScalarType torch_type(const std::string& precision);
+
 /// The one dataset at `data`, a configuration's key. Throws Error where it is empty or holds several.
 ingest::Dataset dataset_to_train_on(const std::string& data);
 
@@ -27,12 +29,6 @@ ingest::Dataset dataset_to_train_on(const std::string& data);
 at::Tensor values_of(const Windows& windows, std::int64_t channels, std::int64_t frames, std::int64_t joints,
                      const at::Device& device);
 at::Tensor labels_of(const Windows& windows, const at::Device& device);
-
-/// A tensor's numbers as float32.
-Array array_of(std::string name, const at::Tensor& tensor);
-
-/// Copies an array into a tensor of as many numbers. Throws Error, beginning with `where`, for other counts.
-void copy_into(const at::Tensor& tensor, const Array& array, const std::string& where);
 
 /// libtorch's exception as one line without its stack.
 std::string one_line(const c10::Error& error);

@@ -1,17 +1,27 @@
 #include "model/weights_file.hpp"
 
 #include "ingest/file.hpp"
-#include "ingest/hdf5/writer.hpp"
 
 namespace actformer::model {
 
+ingest::hdf5::Writer weights_writer(const std::vector<Array>& arrays) {
+    const auto count = [](const auto& values) { return values.size(); };
+    std::size_t bytes = 0;
+    for (const auto& array : arrays) bytes += std::visit(count, array.values) * sizeof(float);
+    ingest::hdf5::Writer file(bytes);
+    for (const auto& array : arrays) {
+        const auto write = [&](const auto& values) {
+            const std::vector<float> rounded(values.begin(), values.end());
+            file.write<float>(array.name, {array.shape.begin(), array.shape.end()}, rounded);
+        };
+        std::visit(write, array.values);
+    }
+    return file;
+}
+
 void save_weights(const std::filesystem::path& path, const StgcnSettings& settings,
                   const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes) {
-    std::size_t bytes = 0;
-    for (const auto& array : arrays) bytes += array.values.size() * sizeof(float);
-    ingest::hdf5::Writer file(bytes);
-    for (const auto& array : arrays)
-        file.write<float>(array.name, {array.shape.begin(), array.shape.end()}, array.values);
+    auto file = weights_writer(arrays);
     file.attribute("channels", std::int64_t{settings.channels});
     file.attribute("classes", std::int64_t{settings.classes});
     file.attribute("parents",

@@ -4,6 +4,7 @@
 
 #include "kernels/error.hpp"
 #include "model/actformer/autocast.hpp"
+#include "model/tensor_array.hpp"
 #include "model/training.hpp"
 
 namespace actformer::model {

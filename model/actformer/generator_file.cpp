@@ -6,9 +6,9 @@
 #include "ingest/checksum.hpp"
 #include "ingest/file.hpp"
 #include "ingest/hdf5/reader.hpp"
-#include "ingest/hdf5/writer.hpp"
 #include "kernels/error.hpp"
 #include "model/actformer/gan.hpp"
+#include "model/weights_file.hpp"
 
 namespace actformer::model {
 namespace {
@@ -38,10 +38,11 @@ std::vector<Array> read_arrays(const ingest::hdf5::Reader& file, const Generator
         if (!std::equal(shape.begin(), shape.end(), array.shape.begin(), array.shape.end()))
             throw Error("{}: '{}' is of shape ({}) where its configuration wants ({})", where, array.name,
                         fmt::join(shape, ", "), fmt::join(array.shape, ", "));
-        array.values = file.read<float>(array.name);
-        if (!std::ranges::all_of(array.values, [](float v) { return std::isfinite(v); }))
+        auto values = file.read<float>(array.name);
+        if (!std::ranges::all_of(values, [](float v) { return std::isfinite(v); }))
             throw Error("{}: '{}' holds numbers that are not finite; take earlier weights", where,
                         array.name);
+        array.values = std::move(values);
     }
     return arrays;
 }
@@ -50,11 +51,7 @@ std::vector<Array> read_arrays(const ingest::hdf5::Reader& file, const Generator
 
 void save_generator(const fs::path& path, const std::vector<Array>& arrays, const Config& config,
                     const ingest::Subjects& subjects, const std::map<std::string, std::string>& notes) {
-    std::size_t bytes = 0;
-    for (const auto& array : arrays) bytes += array.values.size() * sizeof(float);
-    ingest::hdf5::Writer file(bytes);
-    for (const auto& array : arrays)
-        file.write<float>(array.name, {array.shape.begin(), array.shape.end()}, array.values);
+    auto file = weights_writer(arrays);
     file.attribute("model", std::string("generator"));
     file.attribute("configuration", config.yaml());
     file.attribute("representation", std::string("limb"));

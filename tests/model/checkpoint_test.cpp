@@ -14,7 +14,9 @@ namespace {
 Checkpoint sample(std::uint64_t done) {
     return {done,
             {{"model", "toy"}, {"best", 0.25}},
-            {{"a", {2, 2}, {1, 2, 3, static_cast<float>(done)}}, {"b", {}, {5}}}};
+            {{"a", {2, 2}, std::vector<float>{1, 2, 3, static_cast<float>(done)}},
+             {"exact", {2}, std::vector<double>{1. / 3, -5e-300}},
+             {"b", {}, std::vector<float>{5}}}};
 }
 
 void expect_same(const Checkpoint& a, const Checkpoint& b) {

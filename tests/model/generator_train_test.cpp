@@ -216,7 +216,7 @@ TEST_F(TrainGenerator, StopsWhereTheLossesAreNoNumbers) {
     const auto good = newest(dir / "run");
     auto checkpoint = *model::newest_checkpoint(dir / "run", "generator", [](const std::string&) {});
     checkpoint.done += 1;
-    checkpoint.arrays[0].values[0] = std::nanf("");
+    std::get<std::vector<float>>(checkpoint.arrays[0].values)[0] = std::nanf("");
     model::save_checkpoint(dir / "run", checkpoint);
     const auto bad = newest(dir / "run");
     ASSERT_NE(good, bad);

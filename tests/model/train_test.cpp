@@ -87,6 +87,15 @@ TEST_F(TrainRecogniser, GoesOnAfterAKillToTheSameBits) {
     }
 }
 
+TEST_F(TrainRecogniser, GoesOnInFloat64ToTheSameBits) {
+    ASSERT_EQ(train("whole", "precision=float64 epochs=2").exit, 0);
+    ASSERT_EQ(train("halted", "precision=float64 epochs=1").exit, 0);
+    expect_refused(train("halted", "epochs=2"), {"precision is \"float64\" there and \"float32\" here"});
+    ASSERT_EQ(train("halted", "precision=float64 epochs=2").exit, 0);
+    for (const std::string file : {"weights-last.h5", "checkpoint-00002"})
+        EXPECT_EQ(read_file(dir / ("whole/" + file)), read_file(dir / ("halted/" + file))) << file;
+}
+
 TEST_F(TrainRecogniser, GoesBackBehindATruncatedCheckpoint) {
     ASSERT_EQ(train("run").exit, 0);
     const auto weights = read_file(dir / "run/weights-last.h5");
@@ -116,6 +125,7 @@ TEST_F(TrainRecogniser, RefusesWhatCannotBeTrained) {
     expect_refused(train("r", "classes=94"), {"3 classes", "classes: 94"});
     expect_refused(train("r", "device=cuda:7"), {"device cuda:7", "device=cpu"});
     expect_refused(train("r", "device=marble"), {"device marble"});
+    expect_refused(train("r", "precision=double"), {"one of float32, float64", "double"});
     expect_refused(train("r", "bacth=3"), {"did you mean 'batch'"});
     expect_refused(run_actformer("train recogniser -c " + (dir / "toy.yaml").string() + " -o r"), {"--data"});
     EXPECT_FALSE(fs::exists(dir / "r"));
