@@ -28,7 +28,7 @@ Config recogniser_config() {
                    {"seed", std::int64_t{0}, "of weights, windows and dropout", 0, 9e15},
                    {"precision",
                     std::string("float32"),
-                    "float32, or float64, whose rounding decides nothing, at half the speed",
+                    "float32, or float64, slower, where rounding decides next to nothing",
                     std::numeric_limits<double>::lowest(),
                     std::numeric_limits<double>::max(),
                     {"float32", "float64"}},

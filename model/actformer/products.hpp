@@ -415,7 +415,7 @@ inline void outer_tile(const T* left, std::ptrdiff_t left_pitch, const T* right,
 #pragma GCC unroll 16
     for (int r = 0; r < R; ++r)
 #pragma GCC unroll 4
-        for (int w = 0; w < panel_vectors; ++w) sum[r][w] = load(sums + r * pitch + w * lanes<T>);
+        for (int w = 0; w < panel_vectors; ++w) sum[r][w] = Lanes<T>{};
     for (std::ptrdiff_t d = 0; d < depth; ++d, left += left_pitch, right += panel_columns<T>) {
         Lanes<T> columns[panel_vectors];
 #pragma GCC unroll 4
@@ -430,7 +430,10 @@ inline void outer_tile(const T* left, std::ptrdiff_t left_pitch, const T* right,
 #pragma GCC unroll 16
     for (int r = 0; r < R; ++r)
 #pragma GCC unroll 4
-        for (int w = 0; w < panel_vectors; ++w) store(sums + r * pitch + w * lanes<T>, sum[r][w]);
+        for (int w = 0; w < panel_vectors; ++w) {
+            T* at = sums + r * pitch + w * lanes<T>;
+            store(at, load(at) + sum[r][w]);
+        }
 }
 
 template <typename T, int... Counts>

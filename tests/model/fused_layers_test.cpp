@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/support/gradients.hpp"
+#include "tests/support/rounding.hpp"
 
 using namespace actformer::model;
 using namespace actformer::test;
@@ -25,11 +26,6 @@ at::Tensor edges(const std::vector<std::array<int, 3>>& list) {
 
 const std::vector<std::array<int, 3>> chain{{0, 0, 0}, {0, 1, 1}, {0, 2, 2}, {1, 0, 1},
                                             {1, 1, 2}, {2, 1, 0}, {2, 2, 1}};
-
-/// Root mean square of float32's rounding, in units of 2^-24 of the spread of what is exact.
-double rounding(const at::Tensor& rounded, const at::Tensor& exact) {
-    return ((rounded.to(at::kDouble) - exact).pow(2).mean() / exact.var()).sqrt().item<double>() * 0x1p24;
-}
 
 struct FusedLayers : testing::Test {
     FusedLayers() { at::manual_seed(3); }
