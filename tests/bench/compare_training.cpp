@@ -1,5 +1,5 @@
 // A whole training of the recogniser beside eager PyTorch's, given the same random numbers: weights to begin with, batches and what
-// is dropped out. What tells the two apart then is rounding alone, which training magnifies: in float64 to a window or none.
+// is dropped out. What tells the two apart then is rounding alone, which training magnifies: in float64 to a window or two.
 //
 // usage: compare_training CONFIG.yaml [key=value ...]
 // CONFIG and keys are `actformer train recogniser`'s. On one thread; minutes.
@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "kernels/error.hpp"
-#include "model/blas.hpp"
-#include "tests/support/lessons.hpp"
+#include "model/recogniser_trainer.hpp"
+#include "tests/support/course.hpp"
 
 using namespace actformer;
 using namespace actformer::model;
@@ -17,49 +17,54 @@ using namespace actformer::test;
 
 namespace {
 
-RecogniserSettings settings_from(std::span<char*> arguments) {
+struct Outcome {
+    std::vector<double> losses;  ///< means of the epochs
+    eval::Confusion confusion;   ///< of the test split, at the end
+};
+
+Config config_from(std::span<char*> arguments) {
     auto config = recogniser_config();
     config.load(arguments[0]);
     for (const std::string assignment : arguments.subspan(1)) config.override_with(assignment);
+    config.override_with("threads=1");
     const auto settings = recogniser_settings(config);
     if (settings.dropout != 0.5 || settings.momentum != 0.9 || settings.weight_decay != 1e-4 ||
         !settings.nesterov)
         throw Error(
-            "dropout, momentum, weight_decay and nesterov: eager PyTorch's part is written for their "
-            "presets");
-    return settings;
+            "dropout, momentum, weight_decay and nesterov: eager PyTorch's part knows their presets alone");
+    if (settings.test_split.empty()) throw Error("test_split: give one to score on");
+    return config;
 }
 
-void print_losses(const Learnt& ours, const Learnt& theirs, std::uint64_t steps_an_epoch) {
-    fmt::print("epoch  loss here  eager PyTorch  differs by at most\n");
-    for (std::size_t first = 0; first < ours.losses.size(); first += steps_an_epoch) {
-        double sums[2]{}, most = 0;
-        for (auto i = first; i < first + steps_an_epoch; ++i) {
-            sums[0] += ours.losses[i];
-            sums[1] += theirs.losses[i];
-            most = std::max(most, std::abs(ours.losses[i] / theirs.losses[i] - 1));
-        }
-        const auto steps = static_cast<double>(steps_an_epoch);
-        fmt::print("{:5}  {:9.5f}  {:13.5f}  {:.1e} of a step's\n", first / steps_an_epoch + 1,
-                   sums[0] / steps, sums[1] / steps, most);
-    }
+Outcome train_here(const Config& config) {
+    const TempDir folder;
+    Outcome outcome{{}, eval::Confusion(0)};
+    TrainingEvents events;
+    events.epoch = [&](const EpochReport& report) { outcome.losses.push_back(report.loss); };
+    outcome.confusion = train_recogniser(config, folder / "run", events).confusion;
+    return outcome;
 }
 
-void print_confusions(const eval::Confusion& here, const eval::Confusion& there, std::size_t classes) {
+Outcome train_in_eager_pytorch(const Config& config) {
+    const auto course = course_of(recogniser_settings(config));
+    const auto learnt = learn_in_eager_pytorch(course.start, course.lessons);
+    if (!learnt) throw std::runtime_error("eager PyTorch failed");
+    return {means(learnt->losses, course.steps_an_epoch), judge(*learnt, course)};
+}
+
+void print(const Outcome& here, const Outcome& there) {
+    fmt::print("epoch  loss here  eager PyTorch\n");
+    for (std::size_t i = 0; i < here.losses.size(); ++i)
+        fmt::print("{:5}  {:9.5f}  {:13.5f}, {:.1e} of it apart\n", i + 1, here.losses[i], there.losses[i],
+                   std::abs(here.losses[i] / there.losses[i] - 1));
     std::uint64_t apart = 0;
-    for (std::size_t i = 0; i < classes; ++i)
-        for (std::size_t j = 0; j < classes; ++j)
-            apart += here.at(i, j) > there.at(i, j) ? here.at(i, j) - there.at(i, j) : 0;
+    const auto ours = here.confusion.rows(), theirs = there.confusion.rows();
+    for (std::size_t i = 0; i < ours.size(); ++i)
+        for (std::size_t j = 0; j < ours.size(); ++j)
+            apart += ours[i][j] > theirs[i][j] ? ours[i][j] - theirs[i][j] : 0;
     fmt::print("{:.4f} % of {} windows recognised, in eager PyTorch {:.4f} %; confusions differ in {}\n",
-               100 * here.mean_class_accuracy(), here.samples(), 100 * there.mean_class_accuracy(), apart);
-}
-
-void compare(Course course) {
-    const auto theirs = learn_in_eager_pytorch(course.start, course.lessons);
-    if (!theirs) throw std::runtime_error("eager PyTorch failed");
-    const auto ours = learn(course.start, course.lessons);
-    print_losses(ours, *theirs, course.steps_an_epoch);
-    print_confusions(judge(ours, course), judge(*theirs, course), course.start.settings().classes);
+               100 * here.confusion.mean_class_accuracy(), here.confusion.samples(),
+               100 * there.confusion.mean_class_accuracy(), apart);
 }
 
 }  // namespace
@@ -70,8 +75,9 @@ int main(int count, char** arguments) {
         return 2;
     }
     try {
-        set_threads(1);
-        compare(course_of(settings_from({arguments + 1, arguments + count})));
+        const auto config = config_from({arguments + 1, arguments + count});
+        const auto here = train_here(config);
+        print(here, train_in_eager_pytorch(config));
     } catch (const std::exception& e) {
         fmt::print(stderr, "compare_training: {}\n", e.what());
         return 1;

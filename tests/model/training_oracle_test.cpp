@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/support/lessons.hpp"
+#include "tests/support/course.hpp"
 #include "tests/support/toy_dataset.hpp"
 
 using namespace actformer;
@@ -33,14 +33,6 @@ double difference(const std::vector<double>& ours, const std::vector<double>& th
         off = std::max(off, std::abs(ours[i] - theirs[i]));
     }
     return off / most;
-}
-
-/// Of every `count` numbers.
-std::vector<double> means(const std::vector<double>& numbers, std::size_t count) {
-    std::vector<double> out(numbers.size() / count);
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        out.at(i / count) += numbers[i] / static_cast<double>(count);
-    return out;
 }
 
 std::vector<nlohmann::json> lines_of(const std::filesystem::path& file) {
