@@ -50,18 +50,16 @@ std::optional<Array> take_array(const Json& json, std::string_view& bytes) {
     Array array{json.at("name"), json.at("shape"), {}};
     const auto count = static_cast<std::size_t>(
         std::accumulate(array.shape.begin(), array.shape.end(), std::int64_t{1}, std::multiplies<>()));
-    bool whole = false;
     const auto take = [&]<typename T>(std::vector<T>& values) {
         const auto size = count * sizeof(T);
-        whole = size <= bytes.size();
-        if (!whole) return;
+        if (size > bytes.size()) return false;
         values.resize(count);
         std::memcpy(values.data(), bytes.data(), size);
         bytes.remove_prefix(size);
+        return true;
     };
     if (json.value("type", "float32") == "float64") array.values = std::vector<double>();
-    std::visit(take, array.values);
-    if (!whole) return std::nullopt;
+    if (!std::visit(take, array.values)) return std::nullopt;
     return array;
 }
 

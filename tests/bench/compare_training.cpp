@@ -58,13 +58,12 @@ void print(const Outcome& here, const Outcome& there) {
         fmt::print("{:5}  {:9.5f}  {:13.5f}, {:.1e} of it apart\n", i + 1, here.losses[i], there.losses[i],
                    std::abs(here.losses[i] / there.losses[i] - 1));
     std::uint64_t apart = 0;
-    const auto ours = here.confusion.rows(), theirs = there.confusion.rows();
-    for (std::size_t i = 0; i < ours.size(); ++i)
-        for (std::size_t j = 0; j < ours.size(); ++j)
-            apart += ours[i][j] > theirs[i][j] ? ours[i][j] - theirs[i][j] : 0;
+    const auto &ours = here.confusion, &theirs = there.confusion;
+    for (std::size_t i = 0; i < ours.classes(); ++i)
+        for (std::size_t j = 0; j < ours.classes(); ++j)
+            apart += ours.at(i, j) > theirs.at(i, j) ? ours.at(i, j) - theirs.at(i, j) : 0;
     fmt::print("{:.4f} % of {} windows recognised, in eager PyTorch {:.4f} %; confusions differ in {}\n",
-               100 * here.confusion.mean_class_accuracy(), here.confusion.samples(),
-               100 * there.confusion.mean_class_accuracy(), apart);
+               100 * ours.mean_class_accuracy(), ours.samples(), 100 * theirs.mean_class_accuracy(), apart);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "model/actformer/generator_trainer.hpp"
 #include "model/checkpoint.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/run_log.hpp"
 #include "tests/support/toy_dataset.hpp"
 
 using namespace actformer;
@@ -53,13 +54,6 @@ struct TrainGenerator : testing::Test {
 
     TempDir dir;
 };
-
-std::vector<nlohmann::json> log_of(const fs::path& run) {
-    std::vector<nlohmann::json> lines;
-    std::istringstream text(read_file(run / "log.jsonl"));
-    for (std::string line; std::getline(text, line);) lines.push_back(nlohmann::json::parse(line));
-    return lines;
-}
 
 /// Name of the newest checkpoint.
 std::string newest(const fs::path& run) {

@@ -10,6 +10,7 @@
 
 #include "ingest/hdf5/reader.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/run_log.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/toy_dataset.hpp"
 
@@ -42,11 +43,9 @@ struct TrainRecogniser : testing::Test {
     TempDir dir;
 };
 
-std::size_t epochs_logged(const fs::path& log) {
+std::size_t epochs_logged(const fs::path& run) {
     std::size_t epochs = 0;
-    std::istringstream lines(read_file(log));
-    for (std::string text; std::getline(lines, text);)
-        EXPECT_EQ(nlohmann::json::parse(text).at("epoch"), ++epochs);
+    for (const auto& line : log_of(run)) EXPECT_EQ(line.at("epoch"), ++epochs);
     return epochs;
 }
 
@@ -63,7 +62,7 @@ TEST_F(TrainRecogniser, TellsToyClassesApart) {
     EXPECT_EQ(json.at("best_class_accuracy"), 1.0) << result.output;
     EXPECT_GT(json.at("class_accuracy"), 0.85) << result.output;
     EXPECT_EQ(json.at("confusion").size(), 3U);
-    EXPECT_EQ(epochs_logged(dir / "run/log.jsonl"), 40U);
+    EXPECT_EQ(epochs_logged(dir / "run"), 40U);
     const actformer::ingest::hdf5::Reader weights(dir / "run/weights-best.h5");
     EXPECT_EQ(weights.attribute_numbers("classes"), std::vector<std::int64_t>{3});
     EXPECT_EQ(weights.attribute_numbers("channels"), std::vector<std::int64_t>{3});
@@ -82,7 +81,7 @@ TEST_F(TrainRecogniser, GoesOnAfterAKillToTheSameBits) {
         for (const std::string file : {"weights-last.h5", "weights-best.h5", "checkpoint-00003"})
             EXPECT_EQ(read_file(dir / ("whole/" + file)), read_file(dir / ("killed/" + file)))
                 << moment << ", " << file;
-        EXPECT_EQ(epochs_logged(dir / "killed/log.jsonl"), 3U);
+        EXPECT_EQ(epochs_logged(dir / "killed"), 3U);
         fs::remove_all(dir / "killed");
     }
 }

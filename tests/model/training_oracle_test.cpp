@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/support/course.hpp"
+#include "tests/support/run_log.hpp"
 #include "tests/support/toy_dataset.hpp"
 
 using namespace actformer;
@@ -33,13 +34,6 @@ double difference(const std::vector<double>& ours, const std::vector<double>& th
         off = std::max(off, std::abs(ours[i] - theirs[i]));
     }
     return off / most;
-}
-
-std::vector<nlohmann::json> lines_of(const std::filesystem::path& file) {
-    std::vector<nlohmann::json> lines;
-    std::istringstream text(read_file(file));
-    for (std::string line; std::getline(text, line);) lines.push_back(nlohmann::json::parse(line));
-    return lines;
 }
 
 }  // namespace
@@ -80,7 +74,7 @@ TEST(Training, InFloat64TheCommandDoesAsEagerPyTorch) {
     const auto theirs = learn_in_eager_pytorch(course.start, course.lessons);
     ASSERT_TRUE(theirs);
 
-    const auto log = lines_of(dir / "run/log.jsonl");
+    const auto log = log_of(dir / "run");
     std::vector<double> losses;
     for (const auto& line : log) losses.push_back(line.at("loss"));
     // 3e-14 was seen; a number rounded to float32 on the way would leave 1e-8 or more.
