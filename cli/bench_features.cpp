@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/error.hpp"
+#include "base/files/scratch.hpp"
+#include "base/process/peer.hpp"
 #include "cli/bench.hpp"
-#include "cli/peer.hpp"
-#include "cli/scratch.hpp"
-#include "eval/recogniser.hpp"
-#include "eval/tuning.hpp"
-#include "kernels/error.hpp"
+#include "eval/stgcn/recogniser.hpp"
+#include "eval/stgcn/tuning.hpp"
 #include "kernels/peak.hpp"
 
 namespace actformer::cli {

@@ -8,16 +8,16 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/error.hpp"
+#include "base/files/scratch.hpp"
+#include "base/process/peer.hpp"
 #include "cli/bench.hpp"
 #include "cli/format.hpp"
-#include "cli/peer.hpp"
 #include "cli/progress.hpp"
-#include "cli/scratch.hpp"
-#include "ingest/ntu/actions.hpp"
-#include "ingest/ntu/ntu_format.hpp"
-#include "ingest/pipeline.hpp"
+#include "ingest/formats/ntu/actions.hpp"
+#include "ingest/formats/ntu/ntu_format.hpp"
+#include "ingest/pipeline/pipeline.hpp"
 #include "ingest/synth/ntu/ntu.hpp"
-#include "kernels/error.hpp"
 
 namespace actformer::cli {
 namespace {

@@ -9,11 +9,11 @@
 #include <optional>
 #include <random>
 
+#include "base/error.hpp"
+#include "base/files/scratch.hpp"
+#include "base/process/peer.hpp"
 #include "cli/bench.hpp"
-#include "cli/peer.hpp"
-#include "cli/scratch.hpp"
-#include "eval/features_file.hpp"
-#include "kernels/error.hpp"
+#include "eval/scoring/features_file.hpp"
 
 namespace actformer::cli {
 namespace {

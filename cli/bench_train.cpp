@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/error.hpp"
+#include "base/process/peer.hpp"
 #include "cli/bench.hpp"
-#include "cli/peer.hpp"
-#include "kernels/error.hpp"
-#include "model/actformer/speed.hpp"
+#include "model/generators/actformer/speed.hpp"
 
 namespace actformer::cli {
 namespace {

@@ -1,12 +1,12 @@
 // actformer export: a dataset or one split of it in the public ActFormer layout.
 #include <fmt/format.h>
 
+#include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
-#include "ingest/dataset.hpp"
-#include "ingest/motions_file.hpp"
-#include "kernels/error.hpp"
+#include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/motions_file.hpp"
 
 namespace actformer::cli {
 namespace {

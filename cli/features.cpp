@@ -7,9 +7,9 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
-#include "eval/features.hpp"
-#include "eval/weights.hpp"
-#include "ingest/dataset.hpp"
+#include "eval/scoring/features.hpp"
+#include "eval/stgcn/weights.hpp"
+#include "ingest/dataset/dataset.hpp"
 
 namespace actformer::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
-#include "model/actformer/generate.hpp"
+#include "model/generators/actformer/generate.hpp"
 
 namespace actformer::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "ingest/pipeline.hpp"
+#include "ingest/pipeline/pipeline.hpp"
 
 namespace actformer::cli {
 

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "cli/ingest.hpp"
-#include "ingest/bvh/bvh_format.hpp"
+#include "ingest/formats/bvh/bvh_format.hpp"
 
 namespace actformer::cli {
 namespace {

@@ -1,7 +1,7 @@
 // actformer ingest ntu: NTU RGB+D .skeleton files to the datasets ntu-1p and ntu-2p.
 #include "cli/ingest.hpp"
-#include "ingest/ntu/name.hpp"
-#include "ingest/ntu/ntu_format.hpp"
+#include "ingest/formats/ntu/name.hpp"
+#include "ingest/formats/ntu/ntu_format.hpp"
 
 namespace actformer::cli {
 

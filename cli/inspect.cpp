@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
-#include "ingest/dataset.hpp"
-#include "kernels/error.hpp"
+#include "ingest/dataset/dataset.hpp"
 
 namespace actformer::cli {
 namespace {

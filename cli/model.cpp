@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
-#include "ingest/dataset.hpp"
-#include "kernels/error.hpp"
-#include "model/actformer/gan_settings.hpp"
-#include "model/actformer/layers.hpp"
-#include "model/recogniser_settings.hpp"
+#include "ingest/dataset/dataset.hpp"
+#include "model/generators/actformer/gan_settings.hpp"
+#include "model/generators/actformer/layers.hpp"
+#include "model/recognisers/recogniser_settings.hpp"
 
 namespace actformer::cli {
 namespace {

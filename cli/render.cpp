@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/files/aside.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
-#include "ingest/aside.hpp"
-#include "reports/gather.hpp"
-#include "reports/render.hpp"
+#include "reports/figures/gather.hpp"
+#include "reports/pictures/render.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -27,9 +27,7 @@ struct Options {
 
 void render(const Options& options) {
     const auto kind = reports::picture_kind(options.output);
-    {
-        const ingest::Aside probe(options.output);
-    }  // what cannot be written is said before the work, not after
+    { const Aside probe(options.output); }  // what cannot be written is said before the work, not after
     reports::Layout layout;
     layout.view = reports::parse_view(options.view);
     layout.columns = options.columns;

@@ -3,13 +3,13 @@
 
 #include <memory>
 
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "base/text/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
-#include "ingest/file.hpp"
-#include "ingest/text/printable.hpp"
-#include "kernels/error.hpp"
-#include "reports/report/exports.hpp"
-#include "reports/report/page.hpp"
+#include "reports/page/exports.hpp"
+#include "reports/page/page.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -40,14 +40,14 @@ void run(const Options& options) {
         const reports::DetailOptions details{static_cast<std::size_t>(1e6 * options.motion_megabytes)};
         const auto data = reports::details(measured, details);
         const auto html = reports::page(options.title, tables, measured.notices, data);
-        ingest::write_whole(options.out, html);
+        write_whole(options.out, html);
         fmt::print(stderr, "{}: {} measured in {}, {}\n", options.out.string(),
                    counted(measured_cells(tables), "figure"), counted(measured.rows.size(), "row"),
                    bytes(html.size()));
     }
-    if (!options.csv.empty()) ingest::write_whole(options.csv, reports::to_csv(tables));
-    if (!options.latex.empty()) ingest::write_whole(options.latex, reports::to_latex(tables));
-    for (const auto& notice : measured.notices) fmt::print(stderr, "notice: {}\n", ingest::printable(notice));
+    if (!options.csv.empty()) write_whole(options.csv, reports::to_csv(tables));
+    if (!options.latex.empty()) write_whole(options.latex, reports::to_latex(tables));
+    for (const auto& notice : measured.notices) fmt::print(stderr, "notice: {}\n", printable(notice));
     if (options.json) fmt::print("{}\n", reports::to_json(tables, measured.notices).dump(2));
 }
 

@@ -1,5 +1,5 @@
 // actformer score: what generated motions are worth beside real ones.
-#include "eval/score.hpp"
+#include "eval/scoring/score.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -8,17 +8,17 @@
 #include <optional>
 #include <set>
 
+#include "base/checksum/checksum.hpp"
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "base/files/scratch.hpp"
+#include "base/process/process.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
-#include "cli/scratch.hpp"
-#include "eval/labels_file.hpp"
-#include "eval/weights.hpp"
-#include "ingest/checksum.hpp"
-#include "ingest/dataset.hpp"
-#include "ingest/file.hpp"
-#include "kernels/error.hpp"
-#include "reports/sweep/process.hpp"
+#include "eval/scoring/labels_file.hpp"
+#include "eval/stgcn/weights.hpp"
+#include "ingest/dataset/dataset.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -76,9 +76,9 @@ std::string fingerprint_of(const fs::path& run) {
     for (const auto& entry : fs::directory_iterator(run)) {
         const auto extension = entry.path().extension();
         if (entry.is_regular_file() && (extension == ".h5" || extension == ".pt" || extension == ".yaml"))
-            files[entry.path().filename().string()] = ingest::checksum_file(entry.path());
+            files[entry.path().filename().string()] = checksum_file(entry.path());
     }
-    ingest::Checksum all;
+    Checksum all;
     for (const auto& [name, sum] : files) all.add(name + "|" + sum + "|");
     return all.hex();
 }
@@ -115,10 +115,10 @@ eval::MotionSet generated_set(const Options& options, const std::string& fingerp
                                          std::to_string(options.per_class)};
         if (!classes.empty()) command.insert(command.end(), {"--classes", classes});
         if (!options.generate_on.empty()) command.insert(command.end(), {"--device", options.generate_on});
-        const auto result = reports::run_process(command, work / "generate.log");
+        const auto result = run_process(command, work / "generate.log");
         if (result.exit != 0)
             throw Error(
-                "{}: failed: {}", reports::command_line(command),
+                "{}: failed: {}", command_line(command),
                 result.last_line.empty() ? fmt::format("exit code {}", result.exit) : result.last_line);
         return motions;
     };
@@ -218,7 +218,7 @@ void print_text(const eval::Scored& scored) {
 
 void run(Options options) {
     check_choice(options);
-    if (options.program.empty()) options.program = (reports::program_folder() / "actformer").string();
+    if (options.program.empty()) options.program = (program_folder() / "actformer").string();
     WorkFolder work(options.out);
     const auto request = prepared(options, work.path());
     std::unique_ptr<kernels::Device> device;
@@ -235,7 +235,7 @@ void run(Options options) {
         },
         events);
     progress.clear();
-    if (!options.out.empty()) ingest::write_whole(options.out, scored.json.dump(2) + "\n");
+    if (!options.out.empty()) write_whole(options.out, scored.json.dump(2) + "\n");
     work.done();
     if (options.json)
         fmt::print("{}\n", scored.json.dump(2));

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/error.hpp"
+#include "base/process/process.hpp"
+#include "base/text/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
-#include "ingest/text/printable.hpp"
-#include "kernels/error.hpp"
-#include "reports/sweep/process.hpp"
 #include "reports/sweep/run.hpp"
 
 namespace actformer::cli {
@@ -28,14 +28,13 @@ struct Options {
 };
 
 std::string plain(const std::string& text) {
-    return ingest::printable(text);
+    return printable(text);
 }
 
 void print_commands(const reports::Job& job, const Options& options) {
     for (const auto& words : job.commands)
-        fmt::print(
-            "      {}\n",
-            plain(reports::command_line(reports::filled_in(words, options.program, options.out, job))));
+        fmt::print("      {}\n",
+                   plain(command_line(reports::filled_in(words, options.program, options.out, job))));
 }
 
 /// Every job, what it may cost, and with a dry run its commands.
@@ -95,7 +94,7 @@ std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, c
 
 /// This command again, for Slurm's jobs, which may land on other machines with the same file system.
 std::vector<std::string> again(const Options& options) {
-    return {(reports::program_folder() / "actformer").string(),
+    return {(program_folder() / "actformer").string(),
             "sweep",
             fs::absolute(options.file).string(),
             "-o",
@@ -133,7 +132,7 @@ void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Opti
 }
 
 void run(Options options) {
-    if (options.program.empty()) options.program = (reports::program_folder() / "actformer").string();
+    if (options.program.empty()) options.program = (program_folder() / "actformer").string();
     options.out = fs::absolute(options.out).lexically_normal();
     const auto sweep = reports::read_sweep(options.file);
     const auto plan = reports::make_plan(sweep, options.file.parent_path());

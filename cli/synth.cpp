@@ -6,11 +6,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "ingest/synth/ntu/ntu.hpp"
-#include "kernels/error.hpp"
 
 namespace actformer::cli {
 namespace {

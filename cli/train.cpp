@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "cli/progress.hpp"
 #include "cli/training_options.hpp"
-#include "kernels/error.hpp"
-#include "model/recogniser_trainer.hpp"
+#include "model/recognisers/recogniser_trainer.hpp"
 
 namespace actformer::cli {
 namespace {

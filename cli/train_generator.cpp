@@ -7,8 +7,8 @@
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "cli/training_options.hpp"
-#include "model/actformer/gan_settings.hpp"
-#include "model/actformer/generator_trainer.hpp"
+#include "model/generators/actformer/gan_settings.hpp"
+#include "model/generators/actformer/generator_trainer.hpp"
 
 namespace actformer::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "model/config.hpp"
+#include "model/train/config.hpp"
 
 namespace actformer::cli {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "kernels/error.hpp"
+#include "base/error.hpp"
 
 namespace actformer::kernels {
 

@@ -1,6 +1,6 @@
 #include "kernels/program_cache.hpp"
 
-#include "kernels/error.hpp"
+#include "base/error.hpp"
 
 namespace actformer::kernels {
 

@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "ingest/checksum.hpp"
-#include "ingest/dataset.hpp"
-#include "kernels/error.hpp"
+#include "base/checksum/checksum.hpp"
+#include "base/error.hpp"
+#include "ingest/dataset/dataset.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -82,12 +82,12 @@ class Planner {
     /// The contents that a file has now are part of the fingerprint.
     std::string with_contents(const std::string& path, Job& job) {
         const auto at = found(path, job);
-        if (fs::is_regular_file(at)) contents_ += "|" + ingest::checksum_file(at);
+        if (fs::is_regular_file(at)) contents_ += "|" + checksum_file(at);
         return at;
     }
 
     std::size_t add(Job job) {
-        ingest::Checksum sum;
+        Checksum sum;
         sum.add(fmt::format("{}|{}|{}", job.kind, ACTFORMER_VERSION, contents_));
         contents_.clear();
         for (const auto& command : job.commands)

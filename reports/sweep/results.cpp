@@ -4,9 +4,9 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "ingest/file.hpp"
-#include "kernels/error.hpp"
-#include "reports/reading.hpp"
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "reports/sweep/reading.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -128,7 +128,7 @@ void write_results(const Sweep& sweep, const Plan& plan, const fs::path& out) {
     const int lock = ::open((out / "results.lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
     if (lock >= 0) ::flock(lock, LOCK_EX);
     const auto text = results(sweep, plan, out).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    ingest::write_whole(out / "results.json", text);
+    write_whole(out / "results.json", text);
     if (lock >= 0) ::close(lock);
 }
 

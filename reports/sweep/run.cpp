@@ -6,10 +6,10 @@
 #include <mutex>
 #include <thread>
 
-#include "eval/cache.hpp"
-#include "ingest/file.hpp"
-#include "kernels/error.hpp"
-#include "reports/sweep/process.hpp"
+#include "base/error.hpp"
+#include "base/files/cache.hpp"
+#include "base/files/file.hpp"
+#include "base/process/process.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 void write_json(const fs::path& path, const Json& json) {
-    ingest::write_whole(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_whole(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::string now() {
@@ -53,7 +53,7 @@ std::string run_commands(const Job& job, const SweepOptions& options, const fs::
 std::string work_on(const Job& job, const SweepOptions& options) {
     const auto folder = folder_of(options.out, job);
     make_folder(folder);
-    const eval::FileLock lock(folder / "lock");
+    const FileLock lock(folder / "lock");
     if (fs::exists(folder / "done.json")) return {};  // by whom we waited for
     fs::remove(folder / "failed.json");
     Json said{{"kind", job.kind}, {"title", job.title}, {"commands", Json::array()}};

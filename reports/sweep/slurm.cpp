@@ -7,10 +7,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "ingest/file.hpp"
-#include "kernels/error.hpp"
-#include "reports/reading.hpp"
-#include "reports/sweep/process.hpp"
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "base/process/process.hpp"
+#include "reports/sweep/reading.hpp"
 #include "reports/sweep/run.hpp"
 
 namespace actformer::reports {
@@ -126,7 +126,7 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
         live[i] = submit(job, after, options, again, sbatch_words);
         fresh[i] = true;
         numbers[job.id] = live[i];
-        ingest::write_whole(options.out / "slurm.json", numbers.dump(2) + "\n");
+        write_whole(options.out / "slurm.json", numbers.dump(2) + "\n");
         ++submitted;
     }
     return submitted;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "kernels/error.hpp"
-#include "reports/paper_tables.hpp"
+#include "base/error.hpp"
+#include "reports/tables/paper_tables.hpp"
 
 namespace actformer::reports {
 namespace {

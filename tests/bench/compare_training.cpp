@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-#include "kernels/error.hpp"
-#include "model/recogniser_trainer.hpp"
+#include "base/error.hpp"
+#include "model/recognisers/recogniser_trainer.hpp"
 #include "tests/support/course.hpp"
 
 using namespace actformer;

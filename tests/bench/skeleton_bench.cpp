@@ -1,11 +1,11 @@
 // How fast raw NTU text becomes limbs on one core, the text in cache: the limit of `ingest ntu`.
 #include <benchmark/benchmark.h>
 
-#include "ingest/checksum.hpp"
-#include "ingest/file.hpp"
-#include "ingest/ntu/skeleton_file.hpp"
+#include "base/checksum/checksum.hpp"
+#include "base/files/file.hpp"
+#include "base/text/lines.hpp"
+#include "ingest/formats/ntu/skeleton_file.hpp"
 #include "ingest/synth/ntu/ntu.hpp"
-#include "ingest/text/lines.hpp"
 
 namespace {
 

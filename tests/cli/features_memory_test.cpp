@@ -5,9 +5,9 @@
 
 #include <random>
 
-#include "eval/tuning.hpp"
-#include "ingest/hdf5/reader.hpp"
-#include "ingest/motions_file.hpp"
+#include "base/hdf5/reader.hpp"
+#include "eval/stgcn/tuning.hpp"
+#include "ingest/dataset/motions_file.hpp"
 #include "kernels/device.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/plain_recogniser.hpp"
@@ -64,7 +64,7 @@ TEST_F(Memory, ThatRunsOutMakesBatchesSmaller) {
     ASSERT_EQ(small.exit, 0) << small.output;
     const auto whole = features("", "whole.h5");
     ASSERT_EQ(whole.exit, 0) << whole.output;
-    const ingest::hdf5::Reader got(dir / "small.h5"), expected(dir / "whole.h5");
+    const hdf5::Reader got(dir / "small.h5"), expected(dir / "whole.h5");
     EXPECT_EQ(got.read<float>("features"), expected.read<float>("features"));
     EXPECT_EQ(got.read<float>("logits"), expected.read<float>("logits"));
 }

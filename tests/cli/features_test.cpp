@@ -5,17 +5,17 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "eval/features.hpp"
-#include "ingest/dataset.hpp"
-#include "ingest/hdf5/reader.hpp"
-#include "ingest/motions_file.hpp"
+#include "base/hdf5/reader.hpp"
+#include "eval/scoring/features.hpp"
+#include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/motions_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/plain_recogniser.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
 using namespace actformer::test;
-using ingest::hdf5::Reader;
+using hdf5::Reader;
 namespace fs = std::filesystem;
 
 namespace {
@@ -141,7 +141,7 @@ TEST_F(Features, CutDatasetsIntoWindows) {
     std::size_t windows = 0;
     for (const auto& clip : data.clips()) windows += std::max(1U, clip.frames / 40);
     const Reader file(dir / "f.h5");
-    EXPECT_EQ(file.shape("features"), (ingest::hdf5::Shape{windows, 32}));
+    EXPECT_EQ(file.shape("features"), (hdf5::Shape{windows, 32}));
     EXPECT_EQ(file.read<std::uint32_t>("labels").front(), data.clips()[0].label);
     EXPECT_EQ(file.read_strings("names").front(), data.clips()[0].name + "@0");
 }

@@ -11,8 +11,8 @@
 #include <random>
 #include <thread>
 
-#include "ingest/dataset.hpp"
-#include "ingest/motions_file.hpp"
+#include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/motions_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/skeleton_text.hpp"
 #include "tests/support/temp_dir.hpp"

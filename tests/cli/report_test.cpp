@@ -5,9 +5,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "eval/weights.hpp"
-#include "ingest/dataset.hpp"
-#include "ingest/motions_file.hpp"
+#include "eval/stgcn/weights.hpp"
+#include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/motions_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -133,8 +133,8 @@ TEST_F(ReportPage, RefusesWhatIsNoSweepAndSaysWhy) {
 
 TEST_F(ReportPage, WorksInABrowser) {
     ASSERT_EQ(report("-o " + at("r.html")).exit, 0);
-    const auto result = run_command("/usr/bin/python3 " + source("tests/reports/browser/report_test.py") +
-                                    " " + at("r.html"));
+    const auto result =
+        run_command("/usr/bin/python3 " + source("tests/reports/page/report_test.py") + " " + at("r.html"));
     if (result.exit == 77) GTEST_SKIP() << result.output;
     EXPECT_EQ(result.exit, 0) << result.output;
 }

@@ -7,17 +7,17 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "eval/features_file.hpp"
-#include "eval/weights.hpp"
-#include "ingest/dataset.hpp"
-#include "ingest/hdf5/reader.hpp"
-#include "ingest/motions_file.hpp"
+#include "base/hdf5/reader.hpp"
+#include "eval/scoring/features_file.hpp"
+#include "eval/stgcn/weights.hpp"
+#include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/motions_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
 using namespace actformer::test;
-using ingest::hdf5::Reader;
+using hdf5::Reader;
 namespace fs = std::filesystem;
 
 namespace {

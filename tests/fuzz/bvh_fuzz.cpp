@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <string>
 
-#include "ingest/bvh/bvh_file.hpp"
-#include "ingest/bvh/name_pattern.hpp"
-#include "ingest/bvh/skeleton.hpp"
-#include "kernels/error.hpp"
+#include "base/error.hpp"
+#include "ingest/formats/bvh/bvh_file.hpp"
+#include "ingest/formats/bvh/skeleton.hpp"
+#include "ingest/formats/name_pattern.hpp"
 
 using namespace actformer;
 

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <memory>
 
-#include "ingest/file.hpp"
-#include "ingest/ntu/skeleton_file.hpp"
+#include "base/files/file.hpp"
+#include "ingest/formats/ntu/skeleton_file.hpp"
 
 using namespace actformer::ingest;
 

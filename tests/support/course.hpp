@@ -1,11 +1,11 @@
 // What `train recogniser` goes through from its first step to its last, for eager PyTorch to go through too.
 #pragma once
 
-#include "eval/confusion.hpp"
-#include "eval/view.hpp"
-#include "model/recogniser_settings.hpp"
-#include "model/training.hpp"
-#include "model/window_feed.hpp"
+#include "eval/metrics/confusion.hpp"
+#include "ingest/dataset/view.hpp"
+#include "model/recognisers/recogniser_settings.hpp"
+#include "model/train/training.hpp"
+#include "model/train/window_feed.hpp"
 #include "tests/support/lessons.hpp"
 
 namespace actformer::test {

@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "ingest/hdf5/writer.hpp"
-#include "model/sgd.hpp"
-#include "model/stgcn_net.hpp"
-#include "model/weights_file.hpp"
+#include "base/hdf5/writer.hpp"
+#include "model/nn/sgd.hpp"
+#include "model/nn/weights_file.hpp"
+#include "model/recognisers/stgcn_net.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -46,7 +46,7 @@ inline Learnt learn(model::StgcnNet& net, const Lessons& lessons) {
     return out;
 }
 
-/// The same lessons for a network that begins with the same weights, in eager PyTorch (tests/model/training_oracle.py).
+/// The same lessons for a network that begins with the same weights, in eager PyTorch (tests/model/recognisers/training_oracle.py).
 /// Nothing, after a failure of the running test, where it does not work.
 inline std::optional<Learnt> learn_in_eager_pytorch(const model::StgcnNet& start, const Lessons& lessons) {
     const TempDir dir;
@@ -54,7 +54,7 @@ inline std::optional<Learnt> learn_in_eager_pytorch(const model::StgcnNet& start
     model::save_weights(weights, start.settings(), start.arrays(), {});
     {
         const auto sizes = [](const at::Tensor& t) {
-            return ingest::hdf5::Shape(t.sizes().begin(), t.sizes().end());
+            return hdf5::Shape(t.sizes().begin(), t.sizes().end());
         };
         const auto values = [](const at::Tensor& t) {
             return std::span<const float>(t.data_ptr<float>(), static_cast<std::size_t>(t.numel()));
@@ -62,7 +62,7 @@ inline std::optional<Learnt> learn_in_eager_pytorch(const model::StgcnNet& start
         const auto steps = lessons.rates.size();
         const auto* labels = lessons.labels.data_ptr<std::int64_t>();
         const std::vector<std::uint32_t> as_written(labels, labels + lessons.labels.numel());
-        ingest::hdf5::Writer out(file);
+        hdf5::Writer out(file);
         out.write<float>("x", sizes(lessons.x), values(lessons.x));
         out.write<std::uint32_t>("labels", sizes(lessons.labels), as_written);
         out.write<double>("rates", {steps}, lessons.rates);
@@ -71,10 +71,10 @@ inline std::optional<Learnt> learn_in_eager_pytorch(const model::StgcnNet& start
         EXPECT_TRUE(out.finish());
     }
     const bool in_double = start.weight("fcn.weight").scalar_type() == at::kDouble;
-    const auto answer =
-        run_command("OMP_NUM_THREADS=1 /usr/bin/python3 " + source("tests/model/training_oracle.py") + " " +
-                    weights.string() + " " + file.string() + (start.fused ? " fused" : " plain") +
-                    (in_double ? " float64" : " float32"));
+    const auto answer = run_command(
+        "OMP_NUM_THREADS=1 /usr/bin/python3 " + source("tests/model/recognisers/training_oracle.py") + " " +
+        weights.string() + " " + file.string() + (start.fused ? " fused" : " plain") +
+        (in_double ? " float64" : " float32"));
     EXPECT_EQ(answer.exit, 0) << answer.output;
     if (answer.exit != 0) return std::nullopt;
     const auto learnt = nlohmann::json::parse(answer.output);

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "eval/partition.hpp"
-#include "eval/weights.hpp"
+#include "eval/stgcn/partition.hpp"
+#include "eval/stgcn/weights.hpp"
 
 namespace actformer::test {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ingest/dataset/topology.hpp"
 #include "ingest/synth/random.hpp"
-#include "ingest/topology.hpp"
 
 namespace actformer::ingest::synth {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "ingest/ntu/actions.hpp"
+#include "ingest/formats/ntu/actions.hpp"
 
 namespace actformer::ingest::synth {
 namespace {

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-#include "ingest/file.hpp"
-#include "ingest/ntu/actions.hpp"
-#include "ingest/parallel.hpp"
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "base/threads/parallel.hpp"
+#include "ingest/formats/ntu/actions.hpp"
 #include "ingest/synth/ntu/kinect.hpp"
 #include "ingest/synth/ntu/skeleton_writer.hpp"
-#include "kernels/error.hpp"
 
 namespace actformer::ingest::synth {
 namespace {

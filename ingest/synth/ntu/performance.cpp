@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ingest/ntu/actions.hpp"
+#include "ingest/formats/ntu/actions.hpp"
 #include "ingest/synth/ntu/footsteps.hpp"
 #include "ingest/synth/ntu/pose.hpp"
 #include "ingest/synth/ntu/programme.hpp"

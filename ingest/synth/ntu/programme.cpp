@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "ingest/ntu/actions.hpp"
-#include "kernels/error.hpp"
+#include "base/error.hpp"
+#include "ingest/formats/ntu/actions.hpp"
 
 namespace actformer::ingest::synth {
 namespace {

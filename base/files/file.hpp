@@ -1,0 +1,30 @@
+// Files that are read whole and written whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace actformer {
+
+/// What the zero bytes after a text in memory allow: readers may load this many bytes past its end.
+constexpr std::size_t text_padding = 64;
+
+/// The text of `path` in `scratch` (which only ever grows), followed by text_padding zero bytes.
+/// Throws Error where it cannot be read or is larger than `limit` bytes.
+std::string_view read_text(const std::filesystem::path& path, std::vector<char>& scratch,
+                           std::uint64_t limit);
+
+/// Calls `use` with a file's bytes in order, a megabyte or so at a time. Throws Error where it cannot be read.
+void read_in_pieces(const std::filesystem::path& path, const std::function<void(std::string_view)>& use);
+
+/// What devices want of what is written past the page cache: that it begins at such a block and is some of them long.
+constexpr std::size_t direct_block = 4096;
+
+/// Writes `bytes` beside `path` and renames, so that `path` is whole or absent. Throws Error (no space, no right to write)
+/// and leaves nothing behind.
+void write_whole(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace actformer

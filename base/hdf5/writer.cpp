@@ -1,0 +1,178 @@
+#include "base/hdf5/writer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "base/checksum/fletcher32.hpp"
+#include "base/error.hpp"
+
+namespace actformer::hdf5 {
+namespace {
+
+Handle string_type(std::size_t size) {
+    auto type = checked(H5Tcopy(H5T_C_S1), H5Tclose, "making a string type");
+    H5Tset_size(type.get(), std::max<std::size_t>(size, 1));
+    H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+    return type;
+}
+
+struct Packed {
+    std::size_t size = 1;
+    std::string text;
+};
+
+Packed packed(const std::vector<std::string>& values) {
+    Packed all;
+    for (const auto& value : values) all.size = std::max(all.size, value.size());
+    all.text.resize(values.size() * all.size, '\0');
+    for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(all.text.data() + i * all.size, all.size);
+    return all;
+}
+
+}  // namespace
+
+// Beside the values there are their names and shapes.
+Writer::Writer(std::size_t expected_bytes)
+    : memory_(std::make_unique<FileMemory>(expected_bytes + expected_bytes / 64 + (std::size_t{1} << 20))) {
+    silence();
+    const auto access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making a file in memory");
+    memory_->serve(access.get());
+    file_ = checked(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose,
+                    "making a file in memory");
+}
+
+Writer::Writer(const std::filesystem::path& path) {
+    silence();
+    file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+    if (!file_) throw Error("{}: cannot be written; is the folder there, and yours to write?", path.string());
+}
+
+bool Writer::finish() {
+    const bool written = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0;
+    file_ = {};
+    return written;
+}
+
+Handle Writer::create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk) {
+    const auto space = checked(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                               H5Sclose, "describing an array");
+    const auto layout = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describing an array");
+    H5Pset_obj_track_times(layout.get(), false);  // the same data must give the same bytes
+    if (rows_a_chunk > 0 && shape[0] > 0) {
+        auto chunk = shape;
+        chunk[0] = std::min(rows_a_chunk, shape[0]);
+        H5Pset_chunk(layout.get(), static_cast<int>(chunk.size()), chunk.data());
+        H5Pset_fletcher32(layout.get());
+    }
+    const auto links = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "describing an array");
+    H5Pset_create_intermediate_group(links.get(), 1);
+    return checked(
+        H5Dcreate2(file_.get(), name.c_str(), type, space.get(), links.get(), layout.get(), H5P_DEFAULT),
+        H5Dclose, "adding an array");
+}
+
+void Writer::write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
+                        hsize_t rows_a_chunk) {
+    const auto set = create(name, type, shape, rows_a_chunk);
+    if (std::find(shape.begin(), shape.end(), 0U) == shape.end() &&
+        H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+        throw Error("HDF5: writing '{}' failed; is there space left?", name);
+}
+
+// Whole chunks go past the library's filters and chunk cache, which copy every byte more often than all else that is done to it.
+void Writer::write_pieces(const std::string& name, const Shape& shape,
+                          const std::vector<std::span<const float>>& pieces, hsize_t rows_a_chunk) {
+    const auto set = create(name, H5T_NATIVE_FLOAT, shape, rows_a_chunk);
+    const auto row = std::accumulate(shape.begin() + 1, shape.end(), std::size_t{1}, std::multiplies<>());
+    const std::size_t numbers = std::min(rows_a_chunk, shape[0]) * row;
+    std::vector<float> chunk(numbers + 1);  // the checksum goes behind
+    Shape at(shape.size(), 0);
+    std::size_t filled = 0;
+    const auto write_chunk = [&] {
+        std::fill(chunk.begin() + static_cast<std::ptrdiff_t>(filled), chunk.end(), 0.0F);
+        chunk.back() = std::bit_cast<float>(fletcher32(std::span(chunk).first(numbers)));
+        if (H5Dwrite_chunk(set.get(), H5P_DEFAULT, 0, at.data(), chunk.size() * sizeof(float), chunk.data()) <
+            0)
+            throw Error("HDF5: writing '{}' failed; is there enough memory?", name);
+        at[0] += rows_a_chunk;
+        filled = 0;
+    };
+    for (auto piece : pieces)
+        while (!piece.empty()) {
+            const auto part = piece.first(std::min(piece.size(), numbers - filled));
+            std::copy(part.begin(), part.end(), chunk.begin() + static_cast<std::ptrdiff_t>(filled));
+            piece = piece.subspan(part.size());
+            filled += part.size();
+            if (filled == numbers) write_chunk();
+        }
+    if (filled > 0) write_chunk();
+}
+
+void Writer::write_rows(const std::string& name, const Shape& shape, std::uint64_t first,
+                        std::span<const float> values) {
+    const auto set =
+        H5Lexists(file_.get(), name.c_str(), H5P_DEFAULT) > 0
+            ? checked(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT), H5Dclose, "adding to an array")
+            : create(name, H5T_NATIVE_FLOAT, shape, 0);
+    Shape start(shape.size(), 0), part = shape;
+    start[0] = first;
+    part[0] =
+        values.size() / std::accumulate(shape.begin() + 1, shape.end(), hsize_t{1}, std::multiplies<>());
+    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    const Handle memory(H5Screate_simple(static_cast<int>(part.size()), part.data(), nullptr), H5Sclose);
+    H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
+    if (H5Dwrite(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
+        throw Error("HDF5: writing '{}' failed; is there space left?", name);
+}
+
+void Writer::write_strings(const std::string& name, const std::vector<std::string>& values) {
+    const auto all = packed(values);
+    write_from(name, string_type(all.size).get(), {values.size()}, all.text.data(), 0);
+}
+
+void Writer::attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value) {
+    const auto attribute =
+        checked(H5Acreate2(file_.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                "adding an attribute");
+    H5Awrite(attribute.get(), type, value);
+}
+
+void Writer::attribute(const std::string& name, const std::string& value) {
+    attribute_from(name, string_type(value.size()).get(), Handle(H5Screate(H5S_SCALAR), H5Sclose),
+                   value.data());
+}
+
+void Writer::attribute(const std::string& name, std::int64_t value) {
+    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate(H5S_SCALAR), H5Sclose), &value);
+}
+
+void Writer::attribute(const std::string& name, const std::vector<std::int64_t>& values) {
+    const hsize_t count = values.size();
+    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
+                   values.data());
+}
+
+void Writer::attribute(const std::string& name, const std::vector<float>& values) {
+    const hsize_t count = values.size();
+    attribute_from(name, H5T_NATIVE_FLOAT, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
+                   values.data());
+}
+
+void Writer::attribute(const std::string& name, const std::vector<std::string>& values) {
+    const auto all = packed(values);
+    const hsize_t count = values.size();
+    attribute_from(name, string_type(all.size).get(), Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
+                   all.text.data());
+}
+
+void Writer::image(const std::function<void(std::string_view)>& use) {
+    void* memory = nullptr;  // of the file itself: a copy would cost as much again
+    hsize_t size = 0;
+    if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 ||
+        H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &memory) < 0 || H5Fget_filesize(file_.get(), &size) < 0)
+        throw Error("HDF5: a file in memory cannot be read back; is there enough memory?");
+    use({*static_cast<const char**>(memory), size});
+}
+
+}  // namespace actformer::hdf5

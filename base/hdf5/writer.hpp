@@ -1,0 +1,61 @@
+// Arrays, texts and attributes into an HDF5 file, on disk or in memory; errors as exceptions.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/hdf5/file_memory.hpp"
+#include "base/hdf5/handle.hpp"
+
+namespace actformer::hdf5 {
+
+/// A new file; the same calls give the same bytes.
+class Writer {
+  public:
+    explicit Writer(std::size_t expected_bytes);         ///< in memory, for image()
+    explicit Writer(const std::filesystem::path& path);  ///< on disk, for finish()
+
+    /// `rows_a_chunk` rows of the first axis share a checksummed chunk; 0 stores the array in one piece.
+    template <typename T>
+    void write(const std::string& name, const Shape& shape, std::span<const T> values,
+               hsize_t rows_a_chunk = 0) {
+        write_from(name, type_of<T>(), shape, values.data(), rows_a_chunk);
+    }
+
+    void write_strings(const std::string& name, const std::vector<std::string>& values);
+    void attribute(const std::string& name, const std::string& value);
+    void attribute(const std::string& name, std::int64_t value);
+    void attribute(const std::string& name, const std::vector<std::int64_t>& values);
+    void attribute(const std::string& name, const std::vector<float>& values);
+    void attribute(const std::string& name, const std::vector<std::string>& values);
+
+    /// A chunked, checksummed array that lies in memory in pieces, each some whole rows of the first axis.
+    void write_pieces(const std::string& name, const Shape& shape,
+                      const std::vector<std::span<const float>>& pieces, hsize_t rows_a_chunk);
+
+    /// Rows from `first` on of an array of `shape`, which is made when the first of them come.
+    void write_rows(const std::string& name, const Shape& shape, std::uint64_t first,
+                    std::span<const float> values);
+
+    /// Calls `use` with the bytes of a file in memory, which begin at a page.
+    void image(const std::function<void(std::string_view)>& use);
+
+    /// Closes a file on disk. False where not all of it could be written.
+    bool finish();
+
+  private:
+    void attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value);
+    Handle create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk);
+    void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
+                    hsize_t rows_a_chunk);
+    std::unique_ptr<FileMemory> memory_;  ///< of a file that is not on disk
+    Handle file_;                         ///< behind the memory, which it needs to the end
+};
+
+}  // namespace actformer::hdf5

@@ -1,0 +1,26 @@
+// Running programs as the user would, one command line each.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace actformer {
+
+struct ProcessResult {
+    int exit = -1;          ///< exit code, or 128 + the signal that ended it
+    std::string last_line;  ///< of what it wrote: where it failed, why
+};
+
+/// Runs command[0] with the arguments that follow and waits. What it writes is appended to `log`; it reads nothing. It ends with
+/// this process, killed or not. Throws Error where the log cannot be opened or no process can be made; a program that is
+/// not there gives exit code 127.
+ProcessResult run_process(const std::vector<std::string>& command, const std::filesystem::path& log);
+
+/// The folder that this program lies in: its sister programs lie there too.
+std::filesystem::path program_folder();
+
+/// As one would type it: words with spaces or other special characters in quotes.
+std::string command_line(const std::vector<std::string>& command);
+
+}  // namespace actformer

@@ -1,0 +1,228 @@
+#include "eval/scoring/score_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace actformer::eval {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+Json number(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+std::string listed(std::vector<std::string> items) {
+    constexpr std::size_t most = 8;
+    const auto all = items.size();
+    if (all > most) items.resize(most);
+    std::string out;
+    for (const auto& item : items) out += (out.empty() ? "" : ", ") + item;
+    return all > most ? fmt::format("{} and {} more", out, all - most) : out;
+}
+
+/// Fewest samples that any repeat has of a class.
+std::size_t fewest(const ScoreReport& report, std::size_t label) {
+    std::size_t least = report.repeats[0].counts[label];
+    for (const auto& score : report.repeats) least = std::min(least, score.counts[label]);
+    return least;
+}
+
+std::vector<std::size_t> left_out(const ScoreReport& report) {
+    std::vector<std::size_t> out;
+    for (std::size_t c = 0; c < report.classes.size(); ++c)
+        if (report.real[c] < 2 || fewest(report, c) < 2) out.push_back(c);
+    return out;
+}
+
+void warn_of_counts(ScoreReport& report) {
+    std::vector<std::string> missing, thin;
+    std::size_t absent = 0;
+    for (std::size_t c = 0; c < report.classes.size(); ++c) {
+        const auto real = report.real[c], made = fewest(report, c);
+        const auto line = fmt::format("{} ({} real, {} generated)", report.classes[c], real, made);
+        if (real == 0 && made == 0)
+            ++absent;
+        else if (real < 2 || made < 2)
+            missing.push_back(line);
+        else if (std::min(real, made) < thin_class)
+            thin.push_back(line);
+    }
+    if (absent > 0)
+        report.warnings.push_back(
+            fmt::format("{} of {} classes have no sample on either side", absent, report.classes.size()));
+    if (!missing.empty())
+        report.warnings.push_back(fmt::format(
+            "left out of the per-class FID, having fewer than 2 samples on a side: {} of {} classes: {}",
+            missing.size(), report.classes.size(), listed(missing)));
+    if (!thin.empty())
+        report.warnings.push_back(fmt::format(
+            "fewer than {} samples on a side make a class's FID mostly chance: {} of {} classes: {}",
+            thin_class, thin.size(), report.classes.size(), listed(thin)));
+}
+
+void warn_of_collapse(ScoreReport& report) {
+    std::vector<std::string> same;
+    for (std::size_t c = 0; c < report.classes.size(); ++c)
+        for (const auto& score : report.repeats)
+            if (std::count(score.identical.begin(), score.identical.end(), c) > 0) {
+                same.push_back(fmt::format("{} ({} samples)", report.classes[c], score.counts[c]));
+                break;
+            }
+    if (!same.empty())
+        report.warnings.push_back(
+            fmt::format("all generated samples of a class are the same: {}", listed(same)));
+}
+
+void warn_of_floor(ScoreReport& report) {
+    if (!report.floor) {
+        report.warnings.emplace_back("the real side is too small to be scored against itself: no floor");
+        return;
+    }
+    const auto& at_best = report.floor->score.fid.mean;
+    const auto got = summary(report, *find_metric("fid_mean"));
+    if (got && at_best && *at_best > got->mean / 2)
+        report.warnings.push_back(
+            fmt::format("real samples against real ones come to an FIDm of {:.4g}: of {:.4g} much is "
+                        "owed to few samples",
+                        *at_best, got->mean));
+}
+
+std::optional<double> class_accuracy(const Score& score, std::size_t label) {
+    if (!score.confusion || score.counts[label] == 0) return {};
+    return static_cast<double>(score.confusion->at(label, label)) / static_cast<double>(score.counts[label]);
+}
+
+/// Mean over the repeats that have a value.
+template <typename Of>
+std::optional<double> mean_of(const ScoreReport& report, Of of) {
+    std::vector<double> values;
+    for (const auto& score : report.repeats)
+        if (const std::optional<double> value = of(score)) values.push_back(*value);
+    if (values.empty()) return {};
+    return interval(values).mean;
+}
+
+Json class_json(const ScoreReport& report, std::size_t c) {
+    const auto fid = [c](const Score& s) { return s.fid.by_class[c]; };
+    const auto fida = [c](const Score& s) {
+        return s.fid_groups ? s.fid_groups->by_class[c] : std::optional<double>();
+    };
+    return {{"class", report.classes[c]},
+            {"label", c},
+            {"real", report.real[c]},
+            {"generated", fewest(report, c)},
+            {"accuracy", number(mean_of(report, [c](const Score& s) { return class_accuracy(s, c); }))},
+            {"fid", number(mean_of(report, fid))},
+            {"fida", number(mean_of(report, fida))},
+            {"floor", report.floor ? number(report.floor->score.fid.by_class[c]) : Json(nullptr)}};
+}
+
+Json floor_json(const Floor& floor) {
+    Json out;
+    for (const auto& metric : metrics)
+        if (const auto value = metric.of(floor.score)) out[metric.name] = *value;
+    std::size_t drawn = 0, rest = 0;
+    for (const auto n : floor.score.counts) drawn += n;
+    for (const auto n : floor.rest) rest += n;
+    out["samples"] = drawn;
+    out["against"] = rest;
+    out["how"] =
+        "whole clips drawn from every class of the real side, as many samples as generated ones or half of "
+        "the "
+        "class, against the rest";
+    return out;
+}
+
+Json confusion_json(const ScoreReport& report) {
+    const auto n = report.classes.size();
+    std::vector<std::vector<std::uint64_t>> rows(n, std::vector<std::uint64_t>(n, 0));
+    for (const auto& score : report.repeats)
+        for (std::size_t t = 0; t < n; ++t)
+            for (std::size_t g = 0; g < n; ++g) rows[t][g] += score.confusion->at(t, g);
+    return rows;
+}
+
+}  // namespace
+
+const std::vector<Metric> metrics{
+    {"accuracy", "accuracy", false,
+     [](const Score& s) {
+         return s.confusion ? std::optional(s.confusion->mean_class_accuracy()) : std::nullopt;
+     }},
+    {"fid_mean", "FIDm", true, [](const Score& s) { return s.fid.mean; }},
+    {"fid_whole", "FIDw", true, [](const Score& s) { return std::optional(s.fid.whole); }},
+    {"fida_mean", "FIDa_m", true,
+     [](const Score& s) { return s.fid_groups ? s.fid_groups->mean : std::nullopt; }},
+    {"fida_whole", "FIDa_w", true,
+     [](const Score& s) { return s.fid_groups ? std::optional(s.fid_groups->whole) : std::nullopt; }},
+    {"diversity", "diversity", false, [](const Score& s) { return s.diversity; }},
+    {"multimodality", "multimodality", false, [](const Score& s) { return s.multimodality; }}};
+
+const Metric* find_metric(std::string_view name) {
+    const auto found = std::ranges::find(metrics, name, &Metric::name);
+    return found == metrics.end() ? nullptr : &*found;
+}
+
+ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes, std::size_t repeats,
+                          const std::function<Observed(std::size_t)>& generated,
+                          const ScorerOptions& options) {
+    ScoreReport report;
+    report.classes = std::move(classes);
+    const Scorer scorer(real, options);
+    for (std::size_t i = 0; i < repeats; ++i) {
+        const auto side = generated(i);
+        check_comparable(real, side);
+        report.repeats.push_back(scorer.score(side));
+    }
+    report.real = scorer.real().counts;
+    report.floor = score_floor(real, report.repeats[0].counts, options);
+    if (!real.samples.logits.empty()) report.real_accuracy = confusion_of(real.samples).mean_class_accuracy();
+    report.real_diversity = diversity(real.samples, options.diversity_pairs, options.seed);
+    report.real_multimodality = multimodality(real.samples, options.multimodality_pairs, options.seed);
+    warn_of_counts(report);
+    warn_of_collapse(report);
+    warn_of_floor(report);
+    return report;
+}
+
+std::optional<Interval> summary(const ScoreReport& report, const Metric& metric) {
+    std::vector<double> values;
+    for (const auto& score : report.repeats)
+        if (const auto value = metric.of(score)) values.push_back(*value);
+    if (values.empty()) return {};
+    return interval(values);
+}
+
+nlohmann::ordered_json to_json(const ScoreReport& report) {
+    Json out;
+    for (const auto& metric : metrics) {
+        const auto got = summary(report, metric);
+        if (!got) continue;
+        Json each = Json::array();
+        for (const auto& score : report.repeats) each.push_back(number(metric.of(score)));
+        out[metric.name] = {{"mean", got->mean}, {"ci95", number(got->half_width)}, {"repeats", each}};
+    }
+    if (report.floor) out["floor"] = floor_json(*report.floor);
+    std::size_t samples = 0;
+    for (const auto n : report.real) samples += n;
+    out["real"] = {{"samples", samples},
+                   {"accuracy", number(report.real_accuracy)},
+                   {"diversity", number(report.real_diversity)},
+                   {"multimodality", number(report.real_multimodality)}};
+    out["per_class"] = Json::array();
+    for (std::size_t c = 0; c < report.classes.size(); ++c) out["per_class"].push_back(class_json(report, c));
+    if (report.repeats[0].confusion) out["confusion"] = confusion_json(report);
+    out["left_out"] = Json::array();
+    for (const auto c : left_out(report))
+        out["left_out"].push_back({{"class", report.classes[c]},
+                                   {"label", c},
+                                   {"real", report.real[c]},
+                                   {"generated", fewest(report, c)}});
+    out["warnings"] = report.warnings;
+    return out;
+}
+
+}  // namespace actformer::eval

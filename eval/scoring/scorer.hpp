@@ -1,0 +1,62 @@
+// All scores of generated samples against one real side, whose statistics are made once.
+#pragma once
+
+#include "eval/metrics/scores.hpp"
+
+namespace actformer::eval {
+
+/// One side, as the recogniser sees it.
+struct Observed {
+    Samples samples;
+    std::optional<Samples>
+        groups;  ///< several persons: what the one-person recogniser sees, as largest_of_group says
+    std::vector<std::string> clips;  ///< (n) the clip each sample was cut from, or empty: each from its own
+    std::string source;              ///< for messages
+};
+
+/// Throws Error unless the sides have as many classes, dimensions, and both or neither groups.
+void check_comparable(const Observed& real, const Observed& generated);
+
+struct ScorerOptions {
+    std::size_t diversity_pairs = 200, multimodality_pairs = 20;
+    std::uint64_t seed = 0;  ///< of the pairs, and of the real side's halves
+    unsigned threads = 0;    ///< 0: one a core
+};
+
+/// Of one set of generated samples.
+struct Score {
+    std::vector<std::size_t> counts;     ///< (classes) generated samples
+    std::optional<Confusion> confusion;  ///< where there are logits
+    Distances fid;
+    std::optional<Distances> fid_groups;  ///< FIDa
+    std::optional<double> diversity, multimodality;
+    std::vector<std::size_t> identical;  ///< classes whose samples, two or more, are all the same
+};
+
+class Scorer {
+  public:
+    Scorer(const Observed& real, const ScorerOptions& options);
+
+    Score score(const Observed& generated) const;
+
+    const Statistics& real() const { return real_; }
+
+  private:
+    ScorerOptions options_;
+    Statistics real_;
+    std::optional<Statistics> real_groups_;
+};
+
+/// The real side against itself: what a perfect generator would come to with as many samples, for FIDs of finite sets are
+/// above 0.
+struct Floor {
+    Score score;                    ///< of the part taken for generated
+    std::vector<std::size_t> rest;  ///< (classes) real samples that it is compared with
+};
+
+/// Draws from every class clips, each with all its samples, until there are wanted[class] samples or half of the class's, and
+/// scores them against the rest. A clip is never on both sides. None where a side has fewer than two samples in all.
+std::optional<Floor> score_floor(const Observed& real, const std::vector<std::size_t>& wanted,
+                                 const ScorerOptions& options);
+
+}  // namespace actformer::eval

@@ -1,0 +1,132 @@
+#include "ingest/dataset/dataset.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/checksum/checksum.hpp"
+#include "base/error.hpp"
+#include "base/hdf5/reader.hpp"
+#include "ingest/dataset/dataset_json.hpp"
+#include "ingest/dataset/shard.hpp"
+#include "ingest/formats/ntu/name.hpp"
+
+namespace actformer::ingest {
+namespace fs = std::filesystem;
+namespace {
+
+/// Faults of one shard, each on a line.
+std::vector<std::string> faults_of(const fs::path& path, const ShardEntry& entry,
+                                   const DatasetHeader& header) {
+    std::error_code error;
+    const auto bytes = fs::file_size(path, error);
+    if (error) return {fmt::format("{}: missing", path.string())};
+    if (bytes != entry.bytes)
+        return {fmt::format("{}: {} bytes, not {}: cut short or changed", path.string(), bytes, entry.bytes)};
+    if (checksum_file(path) != entry.checksum)
+        return {
+            fmt::format("{}: its checksum differs from dataset.json's: changed or damaged", path.string())};
+    try {
+        const auto clips = read_clips(path, header, 0);
+        const auto motion = hdf5::Reader(path).read<float>("motion");
+        for (const auto& clip : clips) {
+            const auto per_frame = header.persons * header.topology.joints() * 3;
+            const auto* first = motion.data() + clip.offset * per_frame;
+            if (!std::all_of(first, first + clip.frames * per_frame,
+                             [](float v) { return std::isfinite(v); }))
+                return {
+                    fmt::format("{}: clip {} holds numbers that are not finite", path.string(), clip.name)};
+        }
+    } catch (const Error& e) {
+        return {e.what()};
+    }
+    return {};
+}
+
+}  // namespace
+
+Dataset::Dataset(const fs::path& folder) : folder_(folder) {
+    if (!fs::exists(folder / "dataset.json"))
+        throw Error("{}: no dataset (no dataset.json in it); actformer ingest makes one", folder.string());
+    auto file = read_dataset_json(folder / "dataset.json");
+    header_ = std::move(file.header);
+    fingerprint_ = std::move(file.fingerprint);
+    shards_ = std::move(file.shards);
+    for (std::uint32_t shard = 0; shard < shards_.size(); ++shard) {
+        auto clips = read_clips(folder / shards_[shard].file, header_, shard);
+        if (clips.size() != shards_[shard].clips)
+            throw Error("{}: {} clips, not {} as dataset.json says; ingest the raw data again",
+                        (folder / shards_[shard].file).string(), clips.size(), shards_[shard].clips);
+        first_clip_.push_back(clips_.size());
+        std::move(clips.begin(), clips.end(), std::back_inserter(clips_));
+    }
+    for (std::size_t i = 0; i < clips_.size(); ++i)
+        if (!by_name_.emplace(clips_[i].name, i).second)
+            throw Error("{}: clip {} is there twice", folder.string(), clips_[i].name);
+}
+
+std::vector<std::size_t> Dataset::split(const std::string& name) const {
+    const auto found = std::find_if(header_.splits.begin(), header_.splits.end(),
+                                    [&](const Split& split) { return split.name == name; });
+    if (found == header_.splits.end() && name != "all") {
+        std::string known = "all";
+        for (const auto& split : header_.splits) known += ", " + split.name;
+        throw Error("{}: no split '{}'; there is {}", folder_.string(), name, known);
+    }
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < clips_.size(); ++i)
+        if (found == header_.splits.end() || found->holds(header_.fields, clips_[i].fields)) out.push_back(i);
+    return out;
+}
+
+std::optional<std::size_t> Dataset::find(const std::string& name) const {
+    const auto found = by_name_.find(name);
+    return found == by_name_.end() ? std::nullopt : std::optional(found->second);
+}
+
+const hdf5::Reader& Dataset::shard_of(const Clip& clip) const {
+    if (!open_ || open_shard_ != clip.shard) {
+        open_ = std::make_shared<hdf5::Reader>(folder_ / shards_[clip.shard].file);
+        open_shard_ = clip.shard;
+    }
+    return *open_;
+}
+
+Motion Dataset::motion(std::size_t clip) const {
+    const auto& which = clips_.at(clip);
+    return {which.name, which.frames, header_.persons, static_cast<std::uint32_t>(header_.topology.joints()),
+            shard_of(which).read_rows("motion", which.offset, which.frames)};
+}
+
+std::vector<float> Dataset::bone_length(std::size_t clip) const {
+    const auto& which = clips_.at(clip);
+    return shard_of(which).read_rows("clip/bone_length", clip - first_clip_[which.shard], 1);
+}
+
+std::string Dataset::public_name(std::size_t clip) const {
+    return renumbered(clips_.at(clip).name, clips_[clip].label);
+}
+
+std::vector<std::string> verify_dataset(const fs::path& folder) {
+    const auto file = read_dataset_json(folder / "dataset.json");
+    std::vector<std::string> faults;
+    for (const auto& shard : file.shards)
+        for (auto& fault : faults_of(folder / shard.file, shard, file.header))
+            faults.push_back(std::move(fault));
+    return faults;
+}
+
+std::vector<fs::path> datasets_at(const fs::path& path) {
+    if (!fs::exists(path)) throw Error("{}: no such folder", path.string());
+    if (fs::exists(path / "dataset.json")) return {path};
+    std::vector<fs::path> found;
+    if (fs::is_directory(path))
+        for (const auto& entry : fs::directory_iterator(path))
+            if (fs::exists(entry.path() / "dataset.json")) found.push_back(entry.path());
+    if (found.empty())
+        throw Error("{}: no dataset (no dataset.json in it or in a folder of it); actformer ingest makes one",
+                    path.string());
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+}  // namespace actformer::ingest

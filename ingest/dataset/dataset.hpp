@@ -1,0 +1,95 @@
+// A dataset: a folder with dataset.json and checksummed shards (DESIGN 3). Read-only; DatasetWriter makes one.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ingest/dataset/motion.hpp"
+#include "ingest/dataset/split.hpp"
+
+namespace actformer::hdf5 {
+class Reader;
+}
+
+namespace actformer::ingest {
+
+/// What dataset.json says, shards apart.
+struct DatasetHeader {
+    std::string name;                     ///< as in "ntu-1p"
+    std::string representation = "limb";  ///< root position and unit limb vectors, 3 numbers a joint
+    Topology topology;
+    std::uint32_t persons = 1;
+    double fps = 30;
+    bool centre_windows =
+        false;  ///< windows show the root relative to their own mean: clips wander further than a window
+    std::vector<std::string> classes;  ///< label i is classes[i]
+    std::vector<std::string> fields;   ///< metadata of every clip that splits may ask for, as in "performer"
+    std::vector<Split> splits;
+};
+
+/// Where a clip is and what is known of it.
+struct Clip {
+    std::string name;
+    std::uint32_t label = 0;
+    std::uint32_t shard = 0;
+    std::uint64_t offset = 0;  ///< first frame within the shard
+    std::uint32_t frames = 0;
+    std::vector<std::string> fields;  ///< values, as DatasetHeader::fields names them
+};
+
+struct ShardEntry {
+    std::string file, checksum;
+    std::uint64_t bytes = 0, clips = 0, frames = 0;
+};
+
+/// Calls may come from one thread at a time.
+class Dataset {
+  public:
+    /// Reads dataset.json and the clips' metadata. Throws Error naming the file, what is wrong and the remedy.
+    explicit Dataset(const std::filesystem::path& folder);
+
+    const std::filesystem::path& folder() const { return folder_; }
+    const DatasetHeader& header() const { return header_; }
+    const std::string& fingerprint() const { return fingerprint_; }  ///< of the raw data it came from
+    const std::vector<ShardEntry>& shards() const { return shards_; }
+    const std::vector<Clip>& clips() const { return clips_; }
+
+    /// Indices into clips() of those in split `name`; "all" is every clip. Throws Error naming the splits there are.
+    std::vector<std::size_t> split(const std::string& name) const;
+
+    /// Index of the clip called `name`; none where there is no such clip.
+    std::optional<std::size_t> find(const std::string& name) const;
+
+    Motion motion(std::size_t clip) const;
+    std::vector<float> bone_length(std::size_t clip) const;  ///< (persons, joints) metres
+
+    /// Clip names as the public tools spell them: the action renumbered to the label for NTU, else the name.
+    std::string public_name(std::size_t clip) const;
+
+  private:
+    const hdf5::Reader& shard_of(const Clip& clip) const;
+
+    std::filesystem::path folder_;
+    DatasetHeader header_;
+    std::string fingerprint_;
+    std::vector<ShardEntry> shards_;
+    std::vector<Clip> clips_;
+    std::vector<std::size_t> first_clip_;  ///< of each shard
+    std::map<std::string, std::size_t> by_name_;
+    mutable std::shared_ptr<hdf5::Reader> open_;  ///< the shard read last: clips are mostly read in order
+    mutable std::uint32_t open_shard_ = 0;
+};
+
+/// Recomputes every checksum and checks every offset and number of the dataset in `folder`. One line a fault; empty
+/// where all is well. Throws Error where dataset.json itself cannot be read.
+std::vector<std::string> verify_dataset(const std::filesystem::path& folder);
+
+/// Folders of the datasets at `path`: itself, or those directly inside (as `ingest ntu` lays them out). Throws Error where
+/// there are none.
+std::vector<std::filesystem::path> datasets_at(const std::filesystem::path& path);
+
+}  // namespace actformer::ingest

@@ -1,0 +1,119 @@
+#include "ingest/dataset/dataset_json.hpp"
+
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json splits_to_json(const std::vector<Split>& splits) {
+    Json out = Json::object();
+    for (const auto& split : splits) {
+        Json conditions = Json::array();
+        for (const auto& c : split.conditions)
+            conditions.push_back({{"field", c.field}, {c.negated ? "not_in" : "in", c.values}});
+        out[split.name] = conditions;
+    }
+    return out;
+}
+
+std::vector<Split> splits_from_json(const Json& json) {
+    std::vector<Split> out;
+    for (const auto& [name, conditions] : json.items()) {
+        Split split{name, {}};
+        for (const auto& c : conditions) {
+            const bool negated = c.contains("not_in");
+            split.conditions.push_back({c.at("field").get<std::string>(),
+                                        c.at(negated ? "not_in" : "in").get<std::vector<std::string>>(),
+                                        negated});
+        }
+        out.push_back(std::move(split));
+    }
+    return out;
+}
+
+DatasetFile from_json(const Json& json, const std::string& where) {
+    if (const auto format = json.at("format").get<int>(); format != dataset_format)
+        throw Error(
+            "{}: format {}, but this program reads format {}; use the version it was written with ({})",
+            where, format, dataset_format, json.value("program", "unknown"));
+    DatasetFile file;
+    auto& header = file.header;
+    header.name = json.at("name").get<std::string>();
+    header.representation = json.at("representation").get<std::string>();
+    header.fps = json.at("fps").get<double>();
+    header.persons = json.at("persons").get<std::uint32_t>();
+    header.centre_windows = json.value("centre", "clip") == "window";
+    header.topology = {json.at("topology").at("names").get<std::vector<std::string>>(),
+                       json.at("topology").at("parents").get<std::vector<int>>()};
+    header.classes = json.at("classes").get<std::vector<std::string>>();
+    header.fields = json.at("fields").get<std::vector<std::string>>();
+    header.splits = splits_from_json(json.at("splits"));
+    file.settings = json.at("settings").get<std::string>();
+    file.fingerprint = json.at("source").get<std::string>();
+    for (const auto& shard : json.at("shards")) file.shards.push_back(shard_from_json(shard));
+    header.topology.check(where);
+    if (header.persons == 0 || !(header.fps > 0) || !std::isfinite(header.fps))
+        throw Error("{}: persons and fps must be above 0", where);
+    return file;
+}
+
+}  // namespace
+
+Json to_json(const ShardEntry& shard) {
+    return {{"file", shard.file},
+            {"checksum", shard.checksum},
+            {"bytes", shard.bytes},
+            {"clips", shard.clips},
+            {"frames", shard.frames}};
+}
+
+ShardEntry shard_from_json(const nlohmann::json& json) {
+    return {json.at("file").get<std::string>(), json.at("checksum").get<std::string>(),
+            json.at("bytes").get<std::uint64_t>(), json.at("clips").get<std::uint64_t>(),
+            json.at("frames").get<std::uint64_t>()};
+}
+
+std::string to_text(const DatasetFile& file) {
+    const auto& header = file.header;
+    Json shards = Json::array();
+    std::uint64_t clips = 0, frames = 0;
+    for (const auto& shard : file.shards) {
+        shards.push_back(to_json(shard));
+        clips += shard.clips;
+        frames += shard.frames;
+    }
+    Json json{{"format", dataset_format},
+              {"program", "actformer " ACTFORMER_VERSION},
+              {"name", header.name},
+              {"representation", header.representation},
+              {"fps", header.fps},
+              {"persons", header.persons},
+              {"clips", clips},
+              {"frames", frames},
+              {"topology", {{"names", header.topology.names}, {"parents", header.topology.parents}}},
+              {"classes", header.classes},
+              {"fields", header.fields},
+              {"splits", splits_to_json(header.splits)},
+              {"settings", file.settings},
+              {"source", file.fingerprint},
+              {"shards", shards}};
+    if (header.centre_windows) json["centre"] = "window";
+    return json.dump(1) + "\n";
+}
+
+DatasetFile read_dataset_json(const std::filesystem::path& path) {
+    std::vector<char> scratch;
+    const auto text = read_text(path, scratch, std::uint64_t{256} << 20);
+    try {
+        return from_json(Json::parse(text), path.string());
+    } catch (const Json::exception& e) {
+        throw Error("{}: damaged: {}; ingest the raw data again", path.string(), e.what());
+    }
+}
+
+}  // namespace actformer::ingest

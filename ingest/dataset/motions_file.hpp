@@ -1,0 +1,53 @@
+// Motions in the public ActFormer layout: an HDF5 file with one float32 dataset (P*C, K, T) a clip.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ingest/dataset/motion.hpp"
+#include "ingest/dataset/subjects.hpp"
+
+namespace actformer::ingest {
+
+/// Reads motions one at a time. Throws Error on a file that is not in the public layout.
+class MotionsFile {
+  public:
+    explicit MotionsFile(const std::filesystem::path& path);
+    ~MotionsFile();
+
+    const std::vector<std::string>& names() const { return names_; }  ///< sorted
+    Motion read(const std::string& name) const;
+
+    /// Whose motions they are, where the file tells.
+    const std::optional<Subjects>& subjects() const { return subjects_; }
+
+  private:
+    struct Handle;
+    std::filesystem::path path_;
+    std::unique_ptr<Handle> file_;
+    std::vector<std::string> names_;
+    std::optional<Subjects> subjects_;
+};
+
+/// Writes motions one at a time; the file appears at `path` at finish(), and not at all without it.
+class MotionsWriter {
+  public:
+    explicit MotionsWriter(const std::filesystem::path& path);
+    ~MotionsWriter();
+    void add(const std::string& name, const Motion& motion);
+
+    /// Attributes of the file: whose motions they are, and a line of where they come from.
+    void describe(const Subjects& subjects);
+    void note(const std::string& attribute, const std::string& text);
+
+    void finish();
+
+  private:
+    struct Handle;
+    std::unique_ptr<Handle> file_;
+};
+
+}  // namespace actformer::ingest

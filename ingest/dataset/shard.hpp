@@ -1,0 +1,52 @@
+// One shard: an HDF5 file with many clips' motions and metadata (DESIGN 3).
+//
+//   motion             (frames, P, K, 3) float32   all clips one after the other; chunked, checksummed
+//   clip/offset        (clips)           uint64    first frame
+//   clip/length        (clips)           uint32    frames
+//   clip/label         (clips)           uint32
+//   clip/name          (clips)           string
+//   clip/FIELD         (clips)           string    metadata for the splits, as in clip/performer
+//   clip/bone_length   (clips, P, K)     float32   metres, 0 for the root
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "ingest/dataset/dataset.hpp"
+#include "kernels/cleaning.hpp"
+
+namespace actformer::ingest {
+
+/// Gathers clips in memory and becomes a file in one go.
+class ShardBuilder {
+  public:
+    explicit ShardBuilder(const DatasetHeader& header) : header_(&header) {}
+
+    /// Clips in order; cleaned.motion holds their frames one after the other.
+    void add(const std::vector<Clip>& clips, kernels::CleanedBatch cleaned);
+
+    std::size_t clips() const { return clips_.size(); }
+    std::uint64_t frames() const { return frames_; }
+    bool empty() const { return clips_.empty(); }
+
+    /// Calls `use` with the file's bytes, marked with what it was made from.
+    void image(const std::string& settings, const std::string& fingerprint,
+               const std::function<void(std::string_view)>& use) const;
+
+  private:
+    const DatasetHeader* header_;
+    std::vector<Clip> clips_;
+    std::vector<kernels::CleanedBatch> pieces_;  ///< as they came: joining them would copy most of the shard
+    std::uint64_t frames_ = 0;
+};
+
+/// Metadata of every clip in the shard, `shard` being its number. Throws Error for a damaged or foreign file.
+std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHeader& header,
+                             std::uint32_t shard);
+
+/// "shard-00012.h5"
+std::string shard_name(std::size_t number);
+
+}  // namespace actformer::ingest

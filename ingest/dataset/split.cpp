@@ -1,0 +1,59 @@
+#include "ingest/dataset/split.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+std::vector<std::string> pieces(const std::string& text, char separator) {
+    std::vector<std::string> out;
+    for (std::size_t from = 0; from <= text.size();) {
+        const auto to = std::min(text.find(separator, from), text.size());
+        out.push_back(text.substr(from, to - from));
+        from = to + 1;
+    }
+    return out;
+}
+
+}  // namespace
+
+bool Split::holds(const std::vector<std::string>& fields, const std::vector<std::string>& values) const {
+    return std::all_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
+        const auto field = std::find(fields.begin(), fields.end(), condition.field);
+        if (field == fields.end())
+            throw Error("split {}: clips have no field '{}'; they have {}", name, condition.field,
+                        fmt::join(fields, ", "));
+        const auto& value = values.at(static_cast<std::size_t>(field - fields.begin()));
+        const bool named =
+            std::find(condition.values.begin(), condition.values.end(), value) != condition.values.end();
+        return named != condition.negated;
+    });
+}
+
+Split parse_split(const std::string& text) {
+    const auto refuse = [&]() -> Error {
+        return Error(
+            "split '{}' is not of the form NAME=FIELD:VALUE,VALUE;FIELD!:VALUE, as in "
+            "xstyle/train=style:active,normal",
+            text);
+    };
+    const auto equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) throw refuse();
+    Split split{text.substr(0, equals), {}};
+    for (const auto& part : pieces(text.substr(equals + 1), ';')) {
+        const auto colon = part.find(':');
+        if (colon == std::string::npos || colon + 1 == part.size()) throw refuse();
+        Condition condition{part.substr(0, colon), pieces(part.substr(colon + 1), ','), false};
+        if (condition.field.ends_with('!')) {
+            condition.negated = true;
+            condition.field.pop_back();
+        }
+        if (condition.field.empty()) throw refuse();
+        split.conditions.push_back(std::move(condition));
+    }
+    return split;
+}
+
+}  // namespace actformer::ingest

@@ -1,0 +1,31 @@
+#include "ingest/dataset/view.hpp"
+
+#include "base/error.hpp"
+
+namespace actformer::eval {
+
+View load_view(kernels::Device& device, const ingest::Dataset& dataset, const std::string& split,
+               const std::function<void(std::size_t, std::size_t)>& progress) {
+    auto clips = dataset.split(split);
+    if (clips.empty())
+        throw Error("{}: split {} holds no clip; actformer inspect lists the splits",
+                    dataset.folder().string(), split);
+    kernels::ClipTable table;
+    table.persons = dataset.header().persons;
+    table.centre_windows = dataset.header().centre_windows;
+    table.joints = static_cast<std::uint32_t>(dataset.header().topology.joints());
+    for (const auto c : clips) {
+        const auto& clip = dataset.clips()[c];
+        if (clip.frames == 0) throw Error("{}: clip {} has no frames", dataset.folder().string(), clip.name);
+        table.frames.push_back(clip.frames);
+        table.labels.push_back(clip.label);
+    }
+    kernels::ClipStore store(device, std::move(table));
+    for (std::size_t i = 0; i < clips.size(); ++i) {
+        store.load(i, dataset.motion(clips[i]).values);
+        if (progress) progress(i + 1, clips.size());
+    }
+    return {std::move(clips), std::move(store)};
+}
+
+}  // namespace actformer::eval

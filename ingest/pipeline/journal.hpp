@@ -1,0 +1,63 @@
+// What an ingest has finished so far: OUT.partial/journal, a JSON line a tranche. A run that was killed goes on behind its last
+// whole line.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ingest/dataset/dataset.hpp"
+#include "ingest/formats/format.hpp"
+
+namespace actformer::ingest {
+
+/// A file that gave no clip.
+struct LeftOut {
+    std::string path;
+    Rejection rejection;
+};
+
+/// What became of one tranche of raw files.
+struct Tranche {
+    std::uint64_t files = 0, text_bytes = 0;
+    std::string fingerprint;  ///< of all raw text up to its end
+    std::vector<LeftOut> left_out;
+    std::vector<std::pair<std::size_t, ShardEntry>>
+        shards;                      ///< dataset number, shard with its path below data()
+    std::vector<std::string> names;  ///< of the clips kept
+};
+
+/// The working folder OUT.partial, held by one process at a time.
+class Workplace {
+  public:
+    /// Opens or makes `folder`. Work that an earlier run left for another `request` (settings and raw files) is thrown away.
+    /// Throws Error where another process holds it.
+    Workplace(std::filesystem::path folder, const std::string& request);
+    ~Workplace();
+    Workplace(const Workplace&) = delete;
+    Workplace& operator=(const Workplace&) = delete;
+
+    const std::vector<Tranche>& finished() const { return finished_; }
+    std::filesystem::path data() const { return folder_ / "data"; }
+
+    /// The shards of `tranche` are in place: note it down.
+    void finish(Tranche tranche);
+
+    /// Moves data() to `out` and removes what is left.
+    void deliver(const std::filesystem::path& out);
+
+    /// Removes everything.
+    void discard();
+
+  private:
+    void load(const std::string& request);
+    void start_afresh(const std::string& request);
+
+    std::filesystem::path folder_;
+    int lock_ = -1;
+    std::vector<Tranche> finished_;
+};
+
+}  // namespace actformer::ingest

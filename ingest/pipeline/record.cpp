@@ -1,0 +1,103 @@
+#include "ingest/pipeline/record.hpp"
+
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+
+namespace actformer::ingest {
+namespace fs = std::filesystem;
+namespace {
+
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+}  // namespace
+
+std::string_view kind_name(Rejection::Kind kind) {
+    switch (kind) {
+        case Rejection::Kind::broken:
+            return "broken";
+        case Rejection::Kind::dropped:
+            return "dropped";
+        case Rejection::Kind::missing:
+            return "missing";
+        case Rejection::Kind::duplicate:
+            return "duplicate";
+    }
+    return "unknown";
+}
+
+void add_up(const std::vector<Tranche>& tranches, IngestSummary& summary) {
+    for (const auto& tranche : tranches) {
+        summary.files += tranche.files;
+        summary.text_bytes += tranche.text_bytes;
+        for (const auto& [path, rejection] : tranche.left_out) {
+            ++summary.left_out[std::string(kind_name(rejection.kind))];
+            if (summary.first_rejections.size() < 3 && rejection.kind == Rejection::Kind::broken)
+                summary.first_rejections.push_back(path + ": " + rejection.reason);
+        }
+    }
+}
+
+void add_dataset(const DatasetFile& file, const fs::path& folder, IngestSummary& summary) {
+    IngestSummary::PerDataset entry{folder.string(), 0, 0, 0, file.shards.size(), file.header.classes.size()};
+    for (const auto& shard : file.shards) {
+        entry.clips += shard.clips;
+        entry.frames += shard.frames;
+        entry.bytes += shard.bytes;
+    }
+    summary.datasets.push_back(std::move(entry));
+}
+
+std::string rejected_csv(const std::vector<Tranche>& tranches) {
+    std::string csv = "file,kind,reason\n";
+    for (const auto& tranche : tranches)
+        for (const auto& [path, rejection] : tranche.left_out)
+            csv += fmt::format("{},{},{}\n", csv_field(path), kind_name(rejection.kind),
+                               csv_field(rejection.reason));
+    return csv;
+}
+
+std::string record_text(const Origin& origin, const fs::path& out, const IngestSummary& summary) {
+    nlohmann::ordered_json json{{"program", "actformer " ACTFORMER_VERSION},
+                                {"settings", origin.settings},
+                                {"request", origin.request},
+                                {"source", origin.fingerprint},
+                                {"files", summary.files},
+                                {"text_bytes", summary.text_bytes},
+                                {"left_out", summary.left_out},
+                                {"first_rejections", summary.first_rejections}};
+    json["datasets"] = nlohmann::ordered_json::array();
+    for (const auto& d : summary.datasets)
+        json["datasets"].push_back(
+            {{"folder", fs::path(d.folder).lexically_relative(out.lexically_normal()).string()},
+             {"clips", d.clips},
+             {"frames", d.frames},
+             {"bytes", d.bytes},
+             {"shards", d.shards},
+             {"classes", d.classes}});
+    return json.dump(1) + "\n";
+}
+
+bool read_record(const fs::path& out, const std::string& request, IngestSummary& summary) {
+    const auto path = out / "ingest.json";
+    if (!fs::exists(path)) return false;
+    std::vector<char> scratch;
+    const auto json = nlohmann::json::parse(read_text(path, scratch, std::uint64_t{1} << 26), nullptr, false);
+    if (json.is_discarded() || !json.is_object() || json.value("request", "") != request) return false;
+    summary.was_complete = true;
+    summary.files = json.at("files");
+    summary.text_bytes = json.at("text_bytes");
+    summary.left_out = json.at("left_out").get<std::map<std::string, std::uint64_t>>();
+    summary.first_rejections = json.at("first_rejections").get<std::vector<std::string>>();
+    for (const auto& d : json.at("datasets"))
+        summary.datasets.push_back({(out / d.at("folder").get<std::string>()).lexically_normal().string(),
+                                    d.at("clips"), d.at("frames"), d.at("bytes"), d.at("shards"),
+                                    d.at("classes")});
+    return true;
+}
+
+}  // namespace actformer::ingest

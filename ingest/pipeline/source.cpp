@@ -1,0 +1,245 @@
+#include "ingest/pipeline/source.hpp"
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+
+#include "base/checksum/checksum.hpp"
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "base/threads/parallel.hpp"
+
+namespace actformer::ingest {
+namespace fs = std::filesystem;
+namespace {
+
+// Far above any real clip; keeps a hostile archive member from eating the memory.
+constexpr std::uint64_t largest_text = std::uint64_t{128} << 20;
+
+bool has_extension(const std::string& name, std::string_view extension) {
+    if (name.size() <= extension.size()) return false;
+    return std::equal(extension.begin(), extension.end(),
+                      name.end() - static_cast<std::ptrdiff_t>(extension.size()),
+                      [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+}
+
+std::string file_name(const std::string& path) {
+    return path.substr(path.find_last_of('/') + 1);
+}
+
+/// A file of the format, and not one of the "._" companions that some archivers add.
+bool is_wanted(const std::string& path, std::string_view extension) {
+    const auto name = file_name(path);
+    return !name.starts_with("._") && has_extension(name, extension);
+}
+
+std::string stem_of(const std::string& path, std::string_view extension) {
+    const auto name = file_name(path);
+    return name.substr(0, name.size() - extension.size());
+}
+
+/// One archive, read front to back.
+class Archive {
+  public:
+    explicit Archive(fs::path path)
+        : path_(std::move(path)), reader_(archive_read_new(), &archive_read_free) {
+        archive_read_support_filter_all(reader_.get());
+        archive_read_support_format_all(reader_.get());
+        if (archive_read_open_filename(reader_.get(), path_.c_str(), std::size_t{1} << 17) != ARCHIVE_OK)
+            throw Error("{}: neither a folder nor an archive that can be read: {}", path_.string(),
+                        message());
+    }
+
+    /// Moves to the next wanted member; false at the end.
+    bool next(std::string_view extension, RawFile& file) {
+        for (;;) {
+            archive_entry* entry = nullptr;
+            const int result = archive_read_next_header(reader_.get(), &entry);
+            if (result == ARCHIVE_EOF) return false;
+            if (result < ARCHIVE_WARN) broken();
+            const char* name = archive_entry_pathname(entry);
+            if (!name) name = archive_entry_pathname_utf8(entry);
+            member_ = name ? name : "(a name that cannot be read)";
+            if (archive_entry_filetype(entry) != AE_IFREG || !is_wanted(member_, extension)) continue;
+            file.path = path_.string() + ":" + member_;
+            file.stem = stem_of(member_, extension);
+            file.in_memory = true;
+            file.unreadable.clear();
+            file.bytes.clear();
+            file.size = static_cast<std::uint64_t>(std::max<la_int64_t>(archive_entry_size(entry), 0));
+            return true;
+        }
+    }
+
+    /// Reads the member that next() stopped at. A member beyond the size limit is marked unreadable and skipped.
+    void read(RawFile& file) {
+        auto& bytes = file.bytes;
+        bytes.reserve(std::min(file.size, largest_text) + text_padding);
+        for (;;) {
+            const void* block = nullptr;
+            std::size_t size = 0;
+            la_int64_t offset = 0;
+            const int result = archive_read_data_block(reader_.get(), &block, &size, &offset);
+            if (result == ARCHIVE_EOF) break;
+            if (result < ARCHIVE_WARN) broken();
+            if (static_cast<std::uint64_t>(offset) + size > largest_text) {
+                file.unreadable =
+                    fmt::format("more than the {} MiB that one clip may have", largest_text >> 20);
+                bytes.clear();
+                break;
+            }
+            bytes.resize(static_cast<std::size_t>(offset) + size);
+            if (size > 0) std::memcpy(bytes.data() + offset, block, size);
+        }
+        file.size = bytes.size();
+        bytes.resize(bytes.size() + text_padding);
+    }
+
+    /// Compressed bytes read so far.
+    std::uint64_t position() const {
+        return static_cast<std::uint64_t>(archive_filter_bytes(reader_.get(), -1));
+    }
+
+  private:
+    std::string message() const {
+        const char* text = archive_error_string(reader_.get());
+        return text ? text : "no reason given";
+    }
+    [[noreturn]] void broken() const {
+        throw Error("{}: broken archive {}: {}; download it again", path_.string(),
+                    member_.empty() ? "at its start" : "near member " + member_, message());
+    }
+
+    fs::path path_;
+    std::unique_ptr<archive, decltype(&archive_read_free)> reader_;
+    std::string member_;
+};
+
+struct Item {
+    std::string path;
+    std::size_t given = 0;  ///< which of the RAW paths it lies below, or is
+    bool archive = false;
+    std::uint64_t bytes = 0;
+    std::int64_t changed = 0;  ///< nanoseconds
+};
+
+void add_files_below(const fs::path& folder, std::size_t given, std::string_view extension,
+                     std::vector<Item>& items) {
+    const auto before = static_cast<std::ptrdiff_t>(items.size());
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        std::error_code ignored;  // a file that cannot be looked at is rejected when it is read
+        if (is_wanted(it->path().native(), extension) && !it->is_directory(ignored))
+            items.push_back({it->path().native(), given});
+    }
+    if (error) throw Error("{}: the folder cannot be read: {}", folder.string(), error.message());
+    std::sort(items.begin() + before, items.end(),
+              [](const Item& a, const Item& b) { return a.path < b.path; });
+}
+
+/// Sizes and times of change; 0 for a file that vanished, which is rejected when it is read.
+void look_at(std::vector<Item>& items) {
+    parallel_for(items.size(), thread_count(0), [&](std::size_t i, unsigned) {
+        struct stat status {};
+        if (::stat(items[i].path.c_str(), &status) != 0) return;
+        if (S_ISREG(status.st_mode)) items[i].bytes = static_cast<std::uint64_t>(status.st_size);
+        items[i].changed = std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
+    });
+}
+
+}  // namespace
+
+std::string_view RawFile::text(std::vector<char>& scratch) const {
+    if (!unreadable.empty()) throw Error("{}: {}", path, unreadable);
+    if (in_memory) return {bytes.data(), bytes.size() - text_padding};
+    return read_text(path, scratch, largest_text);
+}
+
+struct Source::State {
+    std::string extension;
+    std::vector<fs::path> given;
+    std::vector<Item> items;
+    std::size_t at = 0;
+    std::uint64_t passed = 0;
+    std::unique_ptr<Archive> archive;
+
+    bool step(RawFile& file, bool with_bytes) {
+        for (; at < items.size(); ++at) {
+            const auto& item = items[at];
+            if (!item.archive) {
+                file = RawFile{item.path, stem_of(item.path, extension), item.bytes, false, {}, {}};
+                passed += item.bytes;
+                ++at;
+                return true;
+            }
+            if (!archive) archive = std::make_unique<Archive>(item.path);
+            if (archive->next(extension, file)) {
+                if (with_bytes) archive->read(file);
+                return true;
+            }
+            archive.reset();
+            passed += item.bytes;
+        }
+        return false;
+    }
+};
+
+Source::Source(const std::vector<fs::path>& raw, std::string_view extension) : state_(new State) {
+    state_->extension = extension;
+    state_->given = raw;
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+        std::error_code error;
+        const auto status = fs::status(raw[i], error);
+        if (!fs::exists(status)) throw Error("{}: no such file or folder", raw[i].string());
+        if (fs::is_directory(status)) {
+            add_files_below(raw[i], i, extension, state_->items);
+        } else {
+            const bool archive = !has_extension(raw[i].string(), extension);
+            if (archive)
+                const Archive opens(raw[i]);  // so that a wrong argument is said before any work is done
+            state_->items.push_back({raw[i].string(), i, archive});
+        }
+    }
+    look_at(state_->items);
+    if (state_->items.empty()) {
+        std::string where;
+        for (const auto& path : raw) where += (where.empty() ? "" : ", ") + path.string();
+        throw Error("{}: no {} file there", where, extension);
+    }
+}
+
+Source::~Source() = default;
+
+bool Source::next(RawFile& file) {
+    return state_->step(file, true);
+}
+bool Source::next_name(RawFile& file) {
+    return state_->step(file, false);
+}
+
+std::uint64_t Source::bytes_total() const {
+    std::uint64_t total = 0;
+    for (const auto& item : state_->items) total += item.bytes;
+    return total;
+}
+
+std::uint64_t Source::bytes_read() const {
+    return state_->passed + (state_->archive ? state_->archive->position() : 0);
+}
+
+std::string Source::listing() const {
+    std::vector<std::string> from_root;
+    for (const auto& path : state_->given) from_root.push_back(fs::absolute(path).string());
+    std::string lines;
+    for (const auto& item : state_->items)
+        fmt::format_to(std::back_inserter(lines), "{}{}\n{} {}\n", from_root[item.given],
+                       std::string_view(item.path).substr(state_->given[item.given].native().size()),
+                       item.bytes, item.changed);
+    return checksum(lines);
+}
+
+}  // namespace actformer::ingest

@@ -1,0 +1,86 @@
+#include "model/cpu/blas.hpp"
+
+#include <ATen/ATen.h>
+#include <ATen/Parallel.h>
+#include <dlfcn.h>
+#include <sched.h>
+#include <torch/version.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "base/error.hpp"
+
+namespace actformer::model {
+namespace {
+
+/// Of a product of two 384 x 384 matrices, the best of several.
+double measured_gflops() {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::int64_t n = 384;
+    const at::NoGradGuard no_gradients;
+    const auto a = at::ones({n, n}), b = at::ones({n, n});
+    double best = 1e9;
+    for (int i = 0; i < 6; ++i) {
+        const auto start = Clock::now();
+        const auto c = a.mm(b);
+        best = std::min(best, std::chrono::duration<double>(Clock::now() - start).count());
+    }
+    return 2.0 * n * n * n / best / 1e9;
+}
+
+/// The file behind the name "libblas.so.3" decides, and Debian's alternatives make it a link.
+std::string library_of_sgemm() {
+    void* symbol = dlsym(RTLD_DEFAULT, "sgemm_");
+    Dl_info info{};
+    if (!symbol || dladdr(symbol, &info) == 0 || !info.dli_fname) return {};
+    std::error_code error;
+    const auto path = std::filesystem::canonical(info.dli_fname, error);
+    return error ? info.dli_fname : path.string();
+}
+
+std::string openblas_core() {
+    using Name = char* (*)();
+    const auto name = reinterpret_cast<Name>(dlsym(RTLD_DEFAULT, "openblas_get_corename"));
+    return name ? name() : "";
+}
+
+bool has_wide_vectors() {
+    return __builtin_cpu_supports("avx2") != 0;
+}
+
+}  // namespace
+
+BlasCheck check_blas() {
+    BlasCheck check;
+    check.library = library_of_sgemm();
+    if (check.library.find("openblas") != std::string::npos) check.core = openblas_core();
+    check.gflops = measured_gflops();
+    auto speed = fmt::format("libtorch {}, {} thread{}, matrix products at {:.0f} GFLOP/s", TORCH_VERSION,
+                             at::get_num_threads(), at::get_num_threads() == 1 ? "" : "s", check.gflops);
+    const bool reference = check.library.find("/blas/libblas") != std::string::npos;
+    const bool old_core = has_wide_vectors() && (check.core == "Prescott" || check.core == "Nehalem");
+    check.slow = reference || old_core;
+    if (reference)
+        check.line =
+            speed + ": " + check.library + " is the slow reference BLAS; install libopenblas0-pthread";
+    else if (old_core)
+        check.line =
+            fmt::format("{}: OpenBLAS takes this processor for a {}; set OPENBLAS_CORETYPE={}", speed,
+                        check.core, __builtin_cpu_supports("avx512f") != 0 ? "SkylakeX" : "Haswell");
+    else
+        check.line = speed + (check.core.empty() ? "" : ", OpenBLAS for " + check.core);
+    return check;
+}
+
+int set_threads(int threads) {
+    if (threads == 0) {
+        cpu_set_t allowed;
+        threads = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
+    }
+    at::set_num_threads(threads);
+    return threads;
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,156 @@
+// What the kernels share: memory that threads keep from call to call, packing, sums over threads, layer normalisation.
+#pragma once
+
+#include <omp.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "model/cpu/products.hpp"
+
+namespace actformer::model::cpu {
+
+/// Memory of the calling thread under a number of the caller's choice, good until the thread asks for the same number
+/// again. What was never written is 0.
+template <typename T>
+T* scratch(std::size_t slot, std::ptrdiff_t count) {
+    thread_local std::vector<std::vector<T>> slots;
+    if (slots.size() <= slot) slots.resize(slot + 1);
+    if (slots[slot].size() < static_cast<std::size_t>(count))
+        slots[slot].resize(static_cast<std::size_t>(count));
+    return slots[slot].data();
+}
+
+/// The same of zeros.
+template <typename T>
+T* zeroed_scratch(std::size_t slot, std::ptrdiff_t count) {
+    T* memory = scratch<T>(slot, count);
+    std::fill_n(memory, count, T(0));
+    return memory;
+}
+
+template <typename T>
+PackedMatrix<T>& packed_scratch(std::size_t slot) {
+    thread_local std::vector<PackedMatrix<T>> slots(8);
+    return slots.at(slot);
+}
+
+/// Packs a weight (out, in) so that rows of inputs times it give outputs.
+template <typename T>
+void pack_forward(PackedMatrix<T>& to, const T* weight, std::int64_t out, std::int64_t in, int threads) {
+    to.resize(in, out);
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::int64_t p = 0; p < to.panels(); ++p) to.fill_transposed(p, weight, in, out);
+}
+
+/// Packs a weight (out, in) so that rows of outputs' gradients times it give inputs'.
+template <typename T>
+void pack_backward(PackedMatrix<T>& to, const T* weight, std::int64_t out, std::int64_t in, int threads) {
+    to.resize(out, in);
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::int64_t p = 0; p < to.panels(); ++p) to.fill(p, weight, in, in);
+}
+
+/// A copy of `count` numbers with zeros behind, for loads of whole panels.
+template <typename T>
+T* padded_copy(std::size_t slot, const T* from, std::int64_t count) {
+    T* to = zeroed_scratch<T>(slot, panel_padded<T>(count));
+    std::copy_n(from, count, to);
+    return to;
+}
+
+/// Threads' own sums of a gradient (rows, columns) with `pitch` numbers a row, added up thread after thread.
+template <typename T>
+class ThreadSums {
+  public:
+    ThreadSums(int threads, std::int64_t rows, std::int64_t columns)
+        : rows_(rows),
+          columns_(columns),
+          pitch_(panel_padded<T>(columns)),
+          sums_(static_cast<std::size_t>(threads)) {}
+
+    std::int64_t pitch() const { return pitch_; }
+
+    /// Called by every thread of a team before it adds.
+    T* own(std::size_t slot) {
+        return sums_[static_cast<std::size_t>(omp_get_thread_num())] =
+                   zeroed_scratch<T>(slot, rows_ * pitch_);
+    }
+
+    /// Called by every thread of a team, behind a barrier.
+    void write(T* to) const {
+#pragma omp for schedule(static)
+        for (std::int64_t r = 0; r < rows_; ++r) {
+            T* row = to + r * columns_;
+            std::fill_n(row, columns_, T(0));
+            for (const T* sums : sums_)
+                if (sums)  // fewer threads may have come than were asked for
+                    for (std::int64_t c = 0; c < columns_; ++c) row[c] += sums[r * pitch_ + c];
+        }
+    }
+
+  private:
+    std::int64_t rows_, columns_, pitch_;
+    std::vector<T*> sums_;
+};
+
+template <typename T>
+inline void add_row(const T* from, std::int64_t count, T* to) {
+#pragma omp simd
+    for (std::int64_t i = 0; i < count; ++i) to[i] += from[i];
+}
+
+constexpr double layer_norm_epsilon = 1e-6;
+
+/// A row's mean and one over its deviation.
+template <typename T>
+struct RowStatistics {
+    T mean, inverse;
+
+    RowStatistics(const T* x, std::int64_t width) {
+        T sum = 0, squares = 0;
+#pragma omp simd reduction(+ : sum)
+        for (std::int64_t c = 0; c < width; ++c) sum += x[c];
+        mean = sum / static_cast<T>(width);
+        const T m = mean;
+#pragma omp simd reduction(+ : squares)
+        for (std::int64_t c = 0; c < width; ++c) squares += (x[c] - m) * (x[c] - m);
+        inverse = 1 / std::sqrt(squares / static_cast<T>(width) + static_cast<T>(layer_norm_epsilon));
+    }
+};
+
+template <typename T>
+inline void normalise_row(const T* x, std::int64_t width, const T* weight, const T* bias, T* to) {
+    const RowStatistics<T> row(x, width);
+    const T mean = row.mean, inverse = row.inverse;
+#pragma omp simd
+    for (std::int64_t c = 0; c < width; ++c) to[c] = (x[c] - mean) * inverse * weight[c] + bias[c];
+}
+
+/// to = onto + the gradient to x of a normalised row whose gradient is `grad`; `onto` may be null, or `to`.
+template <typename T>
+inline void normalise_row_backward(const T* x, const T* grad, std::int64_t width, const T* weight,
+                                   const T* onto, T* to, T* grad_weight, T* grad_bias) {
+    const RowStatistics<T> row(x, width);
+    const T mean = row.mean, inverse = row.inverse;
+    T sum = 0, along = 0;
+#pragma omp simd reduction(+ : sum, along)
+    for (std::int64_t c = 0; c < width; ++c) {
+        const T normal = (x[c] - mean) * inverse, g = grad[c] * weight[c];
+        grad_weight[c] += grad[c] * normal;
+        grad_bias[c] += grad[c];
+        sum += g;
+        along += g * normal;
+    }
+    sum /= static_cast<T>(width);
+    along /= static_cast<T>(width);
+#pragma omp simd
+    for (std::int64_t c = 0; c < width; ++c) {
+        const T normal = (x[c] - mean) * inverse;
+        const T g = inverse * (grad[c] * weight[c] - sum - normal * along);
+        to[c] = onto ? onto[c] + g : g;
+    }
+}
+
+}  // namespace actformer::model::cpu

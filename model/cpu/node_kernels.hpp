@@ -1,0 +1,74 @@
+// The discriminator's graph convolutions on processors, forward and backward. T float or double.
+//
+// Motions are (samples, nodes, frames, channels): a node's frames lie end to end, so that the numbers under a temporal
+// convolution's taps are one piece of memory and every (hop, input node) is one matrix product, whose results are added to the
+// output nodes straight from registers. Frames carry zeros on either side, as many as the next convolution pads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/generators/actformer/coarsening.hpp"
+
+namespace actformer::model::cpu {
+
+/// The (hop, input node) pairs that feed any output node, and which.
+struct NodeSums {
+    struct Target {
+        std::int64_t output;
+        float strength;
+    };
+    struct Group {
+        std::int64_t hop, input;
+        std::vector<Target> targets;
+    };
+    std::vector<Group> groups;                ///< by input node
+    std::vector<std::int64_t> first_of_node;  ///< group, for every input node and behind the last
+
+    explicit NodeSums(const HopMatrix& matrix);
+};
+
+struct NodeShape {
+    std::int64_t samples, in_nodes, out_nodes, frames, in, out, taps, stride, padding;
+    std::int64_t out_padding;  ///< zeros on either side of the outputs' frames
+    /// Where a group's weights (out, taps * in) are: the first of (hop, node), and from one row to the next.
+    std::int64_t node_step, hop_step, row_step;
+
+    std::int64_t padded_frames() const { return frames + 2 * padding; }
+    std::int64_t out_frames() const { return (padded_frames() - taps) / stride + 1; }
+    std::int64_t padded_out_frames() const { return out_frames() + 2 * out_padding; }
+    std::int64_t window() const { return taps * in; }
+    std::int64_t sample_in() const { return in_nodes * padded_frames() * in; }
+    std::int64_t sample_out() const { return out_nodes * padded_out_frames() * out; }
+};
+
+/// y (samples, out_nodes, padded_out_frames, out) = leaky(bias + sums of x's convolutions), x (samples, in_nodes,
+/// padded_frames, in), bias (out_nodes, out) or null; a negative number is multiplied by `leak`.
+template <typename T>
+void node_forward(const NodeShape& shape, const NodeSums& sums, const T* x, const T* weight, const T* bias,
+                  T leak, T* y, int threads);
+
+/// Null for what is not wanted. Weights that feed nothing get zeros.
+template <typename T>
+struct NodeGradients {
+    T *x, *weight, *bias;
+};
+
+/// `y` is what forward gave.
+template <typename T>
+void node_backward(const NodeShape& shape, const NodeSums& sums, const T* x, const T* weight, T leak,
+                   const T* y, const T* grad, std::int64_t weights, const NodeGradients<T>& to, int threads);
+
+/// Motions (samples, channels, frames, nodes) as (samples, nodes, padding + frames + padding, 2 * channels): the numbers,
+/// then their differences from the frame before, those of the first frame 0.
+struct MotionInputShape {
+    std::int64_t samples, channels, frames, nodes, padding;
+};
+
+template <typename T>
+void motion_input(const MotionInputShape& shape, const T* motion, T* to, int threads);
+
+template <typename T>
+void motion_input_backward(const MotionInputShape& shape, const T* grad, T* to, int threads);
+
+}  // namespace actformer::model::cpu

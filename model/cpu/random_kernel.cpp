@@ -1,0 +1,144 @@
+#include "model/cpu/random_kernel.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+
+#include "model/cpu/vector_math.hpp"
+
+namespace actformer::model::cpu {
+namespace {
+
+constexpr std::uint32_t factor_a = 0xD2511F53, factor_b = 0xCD9E8D57, step_low = 0x9E3779B9,
+                        step_high = 0xBB67AE85;
+constexpr int rounds = 10;
+
+struct Key {
+    std::uint32_t low, high;
+};
+
+/// Seed and draw make the key, mixed so that near ones have nothing to do with each other.
+Key key_of(const RandomPlace& place) {
+    const auto mixed = [](std::uint64_t x) {
+        x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
+        x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
+        return x ^ (x >> 31);
+    };
+    const auto x = mixed(mixed(place.seed) + ((place.index << 8) | place.purpose));
+    return {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(x >> 32)};
+}
+
+/// Blocks whose words are made together.
+constexpr int together = 16;
+constexpr std::int64_t numbers_together = 4 * together;
+
+/// The words of blocks first .. first + 15 of a sample, (4, 16).
+void make_words(Key key, std::uint64_t sample, std::uint32_t first, std::uint32_t (&words)[4][together]) {
+    for (std::uint32_t i = 0; i < together; ++i) {
+        words[0][i] = first + i;
+        words[1][i] = static_cast<std::uint32_t>(sample);
+        words[2][i] = static_cast<std::uint32_t>(sample >> 32);
+        words[3][i] = 0;
+    }
+    for (int round = 0; round < rounds; ++round, key.low += step_low, key.high += step_high)
+#pragma omp simd
+        for (int i = 0; i < together; ++i) {
+            const auto a = std::uint64_t{factor_a} * words[0][i], b = std::uint64_t{factor_b} * words[2][i];
+            words[0][i] = static_cast<std::uint32_t>(b >> 32) ^ words[1][i] ^ key.low;
+            words[1][i] = static_cast<std::uint32_t>(b);
+            words[2][i] = static_cast<std::uint32_t>(a >> 32) ^ words[3][i] ^ key.high;
+            words[3][i] = static_cast<std::uint32_t>(a);
+        }
+}
+
+/// In (0, 1], in steps of 2^-24.
+Floats portion(const std::uint32_t* words) {
+    Floats out;
+    for (std::ptrdiff_t i = 0; i < lanes<float>; ++i)
+        out[i] = static_cast<float>((words[i] >> 8) + 1) * 0x1p-24F;
+    return out;
+}
+
+/// 64 numbers of a sample.
+void make_normals(Key key, std::uint64_t sample, std::uint32_t first_block, float* to) {
+    std::uint32_t words[4][together];
+    make_words(key, sample, first_block, words);
+    for (int half = 0; half < 2; ++half)
+        for (std::ptrdiff_t i = 0; i < together; i += lanes<float>) {
+            const auto radius = root(-2.0F * logarithm(portion(words[2 * half] + i)));
+            const auto turn = turned(portion(words[2 * half + 1] + i));
+            float* at = to + 2 * half * together + i;
+            store(at, radius * turn.cosine);
+            store(at + together, radius * turn.sine);
+        }
+}
+
+}  // namespace
+
+Words philox(Words counter, std::array<std::uint32_t, 2> key) {
+    for (int round = 0; round < rounds; ++round) {
+        const auto a = std::uint64_t{factor_a} * counter[0], b = std::uint64_t{factor_b} * counter[2];
+        counter = {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(b),
+                   static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(a)};
+        key[0] += step_low;
+        key[1] += step_high;
+    }
+    return counter;
+}
+
+Words random_words(const RandomPlace& place, std::uint64_t sample, std::uint32_t block) {
+    const auto key = key_of(place);
+    return philox({block, static_cast<std::uint32_t>(sample), static_cast<std::uint32_t>(sample >> 32), 0},
+                  {key.low, key.high});
+}
+
+void normal_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t samples, std::int64_t count,
+                    float* values, int threads) {
+    const auto key = key_of(place);
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::int64_t s = 0; s < samples; ++s) {
+        const auto sample = first + static_cast<std::uint64_t>(s);
+        float* to = values + s * count;
+        std::int64_t i = 0;
+        const auto block = [&] { return static_cast<std::uint32_t>(i / 4); };
+        for (; i + numbers_together <= count; i += numbers_together)
+            make_normals(key, sample, block(), to + i);
+        if (i == count) continue;
+        float rest[numbers_together];
+        make_normals(key, sample, block(), rest);
+        std::copy_n(rest, count - i, to + i);
+    }
+}
+
+void whole_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t samples, std::uint32_t bound,
+                   std::int64_t* values) {
+    for (std::int64_t s = 0; s < samples; ++s) {
+        const auto words = random_words(place, first + static_cast<std::uint64_t>(s), 0);
+        values[s] = static_cast<std::int64_t>(std::uint64_t{words[0]} * bound >> 32);
+    }
+}
+
+void correlate(const float* normals, const float* factors, std::int64_t draws, std::int64_t frames,
+               std::int64_t channels, float* to, int threads) {
+    constexpr std::int64_t side_by_side = 4;  // draws that share what is read of the factors
+    const auto draw = frames * channels;
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::int64_t n = 0; n < draws; n += side_by_side) {
+        const float* from[side_by_side];
+        for (std::int64_t i = 0; i < side_by_side; ++i) from[i] = normals + std::min(n + i, draws - 1) * draw;
+        for (std::int64_t t = 0; t < frames; ++t)
+            for (std::int64_t c = 0; c < channels; c += lanes<float>) {
+                const auto here = std::min<std::int64_t>(lanes<float>, channels - c);
+                Floats sums[side_by_side] = {};
+                for (std::int64_t s = 0; s <= t; ++s) {
+                    const auto factor = load_part(factors + (t * frames + s) * channels + c, here);
+                    for (std::int64_t i = 0; i < side_by_side; ++i)
+                        sums[i] += factor * load_part(from[i] + s * channels + c, here);
+                }
+                for (std::int64_t i = 0; i < std::min(side_by_side, draws - n); ++i)
+                    store_part(to + (n + i) * draw + t * channels + c, sums[i], here);
+            }
+    }
+}
+
+}  // namespace actformer::model::cpu

@@ -1,0 +1,146 @@
+#include "model/generators/actformer/discriminator.hpp"
+
+#include "base/error.hpp"
+
+namespace actformer::model {
+namespace {
+
+constexpr double leak = 0.2;
+constexpr std::int64_t person_heads = 8, last_padding = 1;
+
+DiscriminatorSettings checked(DiscriminatorSettings settings) {
+    check(settings);
+    return settings;
+}
+
+/// The differences from frame to frame behind the channels, (N, 2C, T, K); the first frame's are 0.
+at::Tensor with_differences(const at::Tensor& x) {
+    const auto t = x.size(2);
+    const auto moved = x.slice(2, 1, t) - x.slice(2, 0, t - 1);
+    return at::cat({x, at::cat({at::zeros_like(x.slice(2, 0, 1)), moved}, 2)}, 1);
+}
+
+}  // namespace
+
+Discriminator::Discriminator(DiscriminatorSettings settings, std::uint64_t seed, at::ScalarType type)
+    : settings_(checked(std::move(settings))),
+      weights_(*this, discriminator_weights(settings_), seed, type),
+      convolutions_(node_convolutions(settings_)) {
+    for (const auto& conv : convolutions_) {
+        auto values = conv.sums.values;
+        const auto sums =
+            at::from_blob(values.data(), {conv.sums.hops, conv.sums.outputs, conv.sums.inputs}, at::kFloat);
+        sums_.push_back(register_buffer(fmt::format("sums{}", sums_.size()), sums.to(type, false, true)));
+        node_sums_.emplace_back(conv.sums);
+    }
+    const auto coarse = convolutions_.back().sums.outputs;
+    node_sums_.emplace_back(HopMatrix{1, 1, coarse, std::vector<float>(coarse, 1)});
+}
+
+at::Tensor Discriminator::linear(const at::Tensor& x, const std::string& name) const {
+    return at::linear(x, weights_.normalised(name + ".weight", is_training()), weights_.at(name + ".bias"));
+}
+
+/// x (N, C, K, T): the nodes' own convolutions as groups of one, then the sums into output nodes.
+at::Tensor Discriminator::convolved(const at::Tensor& x, std::size_t i) const {
+    const auto& conv = convolutions_[i];
+    const auto name = fmt::format("convs.{}.", i);
+    const auto n = x.size(0), in = x.size(1), nodes = x.size(2), t = x.size(3);
+    const auto weight = weights_.normalised(name + "weight", is_training())
+                            .view({nodes * 2 * conv.out, std::int64_t{conv.taps}, in})
+                            .transpose(1, 2)
+                            .unsqueeze(2);
+    const auto bias = conv.bias ? weights_.at(name + "bias") : at::Tensor();
+    auto y = at::conv2d(x.transpose(1, 2).reshape({n, nodes * in, 1, t}), weight, bias,
+                        at::IntArrayRef{1, conv.stride}, at::IntArrayRef{0, conv.padding}, 1, nodes);
+    y = y.view({n, nodes, 2 * conv.out, -1}).permute({0, 3, 1, 2});  // (N, T, nodes, hops * out)
+    y = y.reshape({n, y.size(1), nodes, 2, conv.out}).transpose(2, 3);
+    return at::leaky_relu(at::matmul(sums_[i], y).sum(2), leak).permute({0, 3, 2, 1});
+}
+
+/// (N, features) of motions (N, C, T, K).
+at::Tensor Discriminator::features(const at::Tensor& motion) const {
+    if (takes_fused_path(motion)) return fused_features(motion);
+    auto x = with_differences(motion).transpose(2, 3);
+    for (std::size_t i = 0; i < convolutions_.size(); ++i) x = convolved(x, i);
+    const auto last = weights_.normalised("last.weight", is_training()).permute({0, 3, 1, 2});
+    x = at::conv2d(x, last, weights_.at("last.bias"), at::IntArrayRef{1, 2},
+                   at::IntArrayRef{0, last_padding});
+    return at::leaky_relu(x, leak).sum({2, 3});
+}
+
+/// What the biases of the groups add up to at each output node, (outputs, out); undefined without biases.
+at::Tensor Discriminator::node_bias(std::size_t i) const {
+    const auto& conv = convolutions_[i];
+    if (!conv.bias) return {};
+    const std::int64_t outputs = conv.sums.outputs, groups = std::int64_t{conv.sums.inputs} * conv.sums.hops;
+    return sums_[i]
+        .permute({1, 2, 0})
+        .reshape({outputs, groups})
+        .matmul(weights_.at(fmt::format("convs.{}.bias", i)).view({groups, conv.out}));
+}
+
+at::Tensor Discriminator::fused_features(const at::Tensor& motion) const {
+    auto x = fused_motion_input(motion.contiguous(), convolutions_[0].padding);
+    std::int64_t frames = motion.size(2);
+    for (std::size_t i = 0; i < convolutions_.size(); ++i) {
+        const auto& conv = convolutions_[i];
+        const bool last = i + 1 == convolutions_.size();
+        const std::int64_t window = std::int64_t{conv.taps} * conv.in;
+        const cpu::NodeShape shape{x.size(0),
+                                   conv.sums.inputs,
+                                   conv.sums.outputs,
+                                   frames,
+                                   conv.in,
+                                   conv.out,
+                                   conv.taps,
+                                   conv.stride,
+                                   conv.padding,
+                                   last ? last_padding : convolutions_[i + 1].padding,
+                                   conv.sums.hops * conv.out * window,
+                                   conv.out * window,
+                                   window};
+        x = fused_node_convolution(x, weights_.normalised(fmt::format("convs.{}.weight", i), is_training()),
+                                   node_bias(i), shape, node_sums_[i], leak);
+        frames = shape.out_frames();
+    }
+    const std::int64_t nodes = convolutions_.back().sums.outputs, features = settings_.features(),
+                       window = last_taps * features / 2;
+    const cpu::NodeShape shape{x.size(0),    nodes, 1,      frames, features / 2,  features, last_taps, 2,
+                               last_padding, 0,     window, 0,      nodes * window};
+    x = fused_node_convolution(x, weights_.normalised("last.weight", is_training()),
+                               weights_.at("last.bias").view({1, features}), shape, node_sums_.back(), leak);
+    return x.sum({1, 2});
+}
+
+/// (N, P, features) -> (N, features)
+at::Tensor Discriminator::pooled(const at::Tensor& features) const {
+    if (settings_.persons_in == PersonsInD::avgpool) return features.mean(1);
+    if (settings_.persons_in == PersonsInD::maxpool) return features.amax({1});
+    const auto n = features.size(0), persons = features.size(1), width = features.size(2),
+               each = width / person_heads;
+    const auto qkv =
+        linear(features, "persons.qkv").view({n, persons, 3, person_heads, each}).permute({2, 0, 3, 1, 4});
+    const auto scores = qkv[0].matmul(qkv[1].transpose(2, 3)) * std::pow(static_cast<double>(each), -0.5);
+    const auto seen = scores.softmax(-1).matmul(qkv[2]).transpose(1, 2).reshape({n, persons, width});
+    return (features + linear(seen, "persons.proj")).mean(1);
+}
+
+at::Tensor Discriminator::forward(const at::Tensor& motion, const at::Tensor& labels) {
+    const std::int64_t persons = settings_.persons, numbers = settings_.numbers, joints = settings_.joints();
+    if (motion.dim() != 4 || motion.size(1) != persons * numbers || motion.size(3) != joints ||
+        labels.dim() != 1 || labels.size(0) != motion.size(0))
+        throw Error("the discriminator takes motions (N, {}, T, {}) and N labels", persons * numbers, joints);
+    const auto n = motion.size(0), t = motion.size(2);
+    if (t < fewest_frames)
+        throw Error("{} frames: the discriminator halves them four times and needs at least {}", t,
+                    fewest_frames);
+    const auto found =
+        settings_.persons_in == PersonsInD::concat
+            ? features(motion)
+            : pooled(features(motion.reshape({n * persons, numbers, t, joints})).view({n, persons, -1}));
+    const auto classes = weights_.normalised("classes.weight", is_training()).index_select(0, labels);
+    return linear(found, "score").squeeze(1) + (classes * found).sum(1);
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,198 @@
+#include "model/generators/actformer/generator.hpp"
+
+#include "base/error.hpp"
+
+namespace actformer::model {
+namespace {
+
+constexpr double norm_epsilon = 1e-6, length_epsilon = 1e-4, leak = 0.2;
+
+at::Tensor tensor_of(const HopMatrix& matrix, at::ScalarType type) {
+    auto values = matrix.values;
+    return at::from_blob(values.data(), {matrix.hops, matrix.outputs, matrix.inputs}, at::kFloat)
+        .to(type, false, true);
+}
+
+GeneratorSettings checked(GeneratorSettings settings) {
+    check(settings);
+    return settings;
+}
+
+/// Two orthogonal unit vectors out of the six numbers along the last axis (Gram and Schmidt).
+at::Tensor orthonormal(const at::Tensor& x) {
+    const auto unit = [](const at::Tensor& v) { return v / v.norm(2, {-1}, true).clamp_min(1e-12); };
+    const auto first = unit(x.slice(-1, 0, 3));
+    const auto second = x.slice(-1, 3, 6);
+    return at::cat({first, unit(second - (first * second).sum(-1, true) * first)}, -1);
+}
+
+}  // namespace
+
+Generator::Generator(GeneratorSettings settings, std::uint64_t seed, at::ScalarType type)
+    : settings_(checked(std::move(settings))), weights_(*this, generator_weights(settings_), seed, type) {
+    if (settings_.body == Body::transformer) return;
+    const auto levels = skeleton_levels(settings_.parents);
+    to_middle_ = register_buffer("to_middle",
+                                 tensor_of(transposed(hop_matrix(levels.middle, levels.coarse_kept)), type));
+    to_fine_ =
+        register_buffer("to_fine", tensor_of(transposed(hop_matrix(levels.fine, levels.middle_kept)), type));
+    within_fine_ =
+        register_buffer("within_fine", tensor_of(hop_matrix(levels.fine, all_nodes(levels.fine)), type));
+}
+
+at::Tensor Generator::linear(const at::Tensor& x, const std::string& name) const {
+    return at::linear(x, weights_.normalised(name + ".weight", is_training()), weights_.at(name + ".bias"));
+}
+
+/// (T+1, P, W) of the table.
+at::Tensor Generator::positions() const {
+    if (settings_.positions != Positions::concat || settings_.tokens_a_frame() == 1)
+        return weights_.at("positions");
+    const auto &frames = weights_.at("frame_positions"), &persons = weights_.at("person_positions");
+    const auto t = frames.size(0), p = persons.size(0), half = frames.size(1);
+    return at::cat({frames.unsqueeze(1).expand({t, p, half}), persons.unsqueeze(0).expand({t, p, half})}, 2);
+}
+
+/// Latents as tokens take them: where all persons share a token, so do their draws, side by side.
+at::Tensor Generator::per_token(const at::Tensor& latent) const {
+    if (settings_.interaction == Interaction::iformer) return latent.contiguous();
+    return latent.permute({0, 2, 1, 3}).reshape({latent.size(0), 1, latent.size(2), -1}).contiguous();
+}
+
+/// (N, P, T+1, W): the class first, then the frames, each with its position.
+at::Tensor Generator::tokens(const at::Tensor& latent, const at::Tensor& labels) const {
+    const auto n = latent.size(0), t = latent.size(2), persons = std::int64_t{settings_.tokens_a_frame()};
+    const auto frames = linear(per_token(latent), "input");
+    const auto classes = weights_.at("classes.weight").index_select(0, labels).view({n, 1, 1, -1});
+    const auto all = at::cat({classes.expand({n, frames.size(1), 1, settings_.width}), frames}, 2);
+    const auto places = positions().slice(0, 0, t + 1).permute({1, 0, 2});
+    return all.expand({n, persons, t + 1, settings_.width}) + places;
+}
+
+at::Tensor Generator::attention(const at::Tensor& x, const std::string& prefix) const {
+    const auto n = x.size(0), length = x.size(1), heads = std::int64_t{settings_.heads};
+    const auto each = settings_.width / heads;
+    const auto qkv = linear(x, prefix + "qkv").view({n, length, 3, heads, each}).permute({2, 0, 3, 1, 4});
+    const auto scores = qkv[0].matmul(qkv[1].transpose(2, 3)) * std::pow(static_cast<double>(each), -0.5);
+    const auto seen = scores.softmax(-1).matmul(qkv[2]);
+    return linear(seen.transpose(1, 2).reshape({n, length, settings_.width}), prefix + "proj");
+}
+
+/// x (sequences, tokens, W).
+at::Tensor Generator::block(const at::Tensor& x, const std::string& prefix) const {
+    const auto norm = [&](const at::Tensor& v, const std::string& name) {
+        return at::layer_norm(v, {settings_.width}, weights_.at(prefix + name + ".weight"),
+                              weights_.at(prefix + name + ".bias"), norm_epsilon);
+    };
+    const auto y = x + attention(norm(x, "norm1"), prefix);
+    return y + linear(at::gelu(linear(norm(y, "norm2"), prefix + "up")), prefix + "down");
+}
+
+at::Tensor Generator::transformed(at::Tensor x) const {
+    const auto n = x.size(0), streams = x.size(1), tokens = x.size(2);
+    const auto blocks = interacting_blocks(settings_);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const auto prefix = fmt::format("blocks.{}.", i);
+        if (blocks[i])
+            x = block(x.transpose(1, 2).flatten(0, 1), prefix).view({n, tokens, streams, -1}).transpose(1, 2);
+        else
+            x = block(x.flatten(0, 1), prefix).view({n, streams, tokens, -1});
+    }
+    return x;
+}
+
+at::Tensor Generator::fused_tokens(const at::Tensor& latent, const at::Tensor& labels) const {
+    const auto z = per_token(latent);
+    return fused_embedding(z, weights_.layer("input", is_training()),
+                           weights_.at("classes.weight").index_select(0, labels),
+                           positions().slice(0, 0, z.size(2) + 1).contiguous());
+}
+
+at::Tensor Generator::fused_transformed(at::Tensor x) const {
+    const auto blocks = interacting_blocks(settings_);
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const auto layer = [&](const char* name) {
+            return weights_.layer(fmt::format("blocks.{}.{}", i, name), is_training());
+        };
+        if (at::GradMode::is_enabled()) {
+            x = fused_attention(x, layer("norm1"), layer("qkv"), layer("proj"), settings_.heads, blocks[i]);
+            x = fused_mlp(x, layer("norm2"), layer("up"), layer("down"));
+        } else {
+            fused_attention_in_place(x, layer("norm1"), layer("qkv"), layer("proj"), settings_.heads,
+                                     blocks[i]);
+            fused_mlp_in_place(x, layer("norm2"), layer("up"), layer("down"));
+        }
+    }
+    return x;
+}
+
+/// x (N, S, T+1, W), S the tokens a frame.
+at::Tensor Generator::motion(const at::Tensor& x) const {
+    if (takes_fused_path(x) && settings_.body == Body::transformer && settings_.numbers == 3 &&
+        settings_.tokens_a_frame() == settings_.persons)
+        return fused_poses(x, weights_.layer("norm", is_training()), weights_.layer("head", is_training()),
+                           settings_.free_joint);
+    const auto n = x.size(0), t = x.size(2) - 1;
+    const auto normal =
+        at::layer_norm(x.slice(2, 1), {settings_.width}, weights_.normalised("norm.weight", is_training()),
+                       weights_.at("norm.bias"), norm_epsilon);
+    const auto shaped = this->shaped(poses(normal));  // (N, P, T, K, D)
+    return shaped.permute({0, 1, 4, 2, 3})
+        .reshape({n, settings_.persons * settings_.numbers, t, settings_.joints()});
+}
+
+/// x (N, T, nodes, in): every hop's linear map, then the fixed sums over nodes. Spectral norms and sums make numbers smaller layer
+/// by layer, until biases are all that is left: each node's are brought back to deviation 1.
+at::Tensor Generator::graph_layer(const at::Tensor& x, const std::string& name,
+                                  const at::Tensor& sums) const {
+    const auto n = x.size(0), t = x.size(1), nodes = x.size(2);
+    const auto mapped =
+        linear(x, name).view({n, t, nodes, 2, -1}).transpose(2, 3);  // (N, T, hops, nodes, out)
+    const auto y = at::leaky_relu(at::matmul(sums, mapped).sum(2), leak);
+    return at::layer_norm(y, {y.size(-1)}, {}, {}, norm_epsilon);
+}
+
+/// x (N, S, T, W), S the tokens a frame -> (N, P, T, K, D).
+at::Tensor Generator::poses(const at::Tensor& x) const {
+    const auto n = x.size(0), streams = x.size(1), t = x.size(2), parting = settings_.persons / streams;
+    const std::int64_t joints = settings_.joints(), numbers = settings_.numbers;
+    const auto part = [&](const at::Tensor& v, std::int64_t nodes) {  // persons out of the last axis
+        return v.view({n, streams, t, parting, nodes, -1})
+            .transpose(2, 3)
+            .reshape({n, settings_.persons, t, nodes, -1});
+    };
+    if (settings_.body == Body::transformer) return part(linear(x, "head"), joints);
+    const auto coarse = part(linear(x, "to_graph"), to_middle_.size(2));
+    auto y = coarse.flatten(0, 1);
+    y = graph_layer(y, "up1", to_middle_);
+    y = graph_layer(y, "up2", to_fine_);
+    y = graph_layer(y, "graph", within_fine_);
+    const auto head = weights_.layer("head", is_training());
+    const auto each = head.weight.view({joints, numbers, -1}).transpose(1, 2);  // (K, fine, D)
+    const auto raw = at::matmul(y.unsqueeze(-2), each).squeeze(-2) + head.bias.view({joints, numbers});
+    return raw.view({n, settings_.persons, t, joints, numbers});
+}
+
+/// The free joint as it is, the others as unit limbs or rotations.
+at::Tensor Generator::shaped(const at::Tensor& poses) const {
+    const std::int64_t free = settings_.free_joint, joints = settings_.joints();
+    const auto bent = poses.tanh();
+    const auto normal =
+        settings_.numbers == 6 ? orthonormal(bent) : bent / (bent.norm(2, {-1}, true) + length_epsilon);
+    return at::cat(
+        {normal.slice(3, 0, free), poses.slice(3, free, free + 1), normal.slice(3, free + 1, joints)}, 3);
+}
+
+at::Tensor Generator::forward(const at::Tensor& latent, const at::Tensor& labels) {
+    const auto n = latent.size(0), t = latent.size(2);
+    if (latent.dim() != 4 || latent.size(1) != settings_.prior.streams ||
+        latent.size(3) != settings_.prior.channels || t < 1 || labels.dim() != 1 || labels.size(0) != n)
+        throw Error("the generator takes latents (N, {}, T, {}) and N labels", settings_.prior.streams,
+                    settings_.prior.channels);
+    if (t > settings_.frames)
+        throw Error("{} frames: the generator was made for at most {}", t, settings_.frames);
+    return takes_fused_path(latent) ? motion(fused_transformed(fused_tokens(latent, labels)))
+                                    : motion(transformed(tokens(latent, labels)));
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,47 @@
+// ActFormer's generator (DESIGN 4.5). Includes torch headers: for model/'s own sources and tests only.
+#pragma once
+
+#include <torch/nn/module.h>
+
+#include "model/nn/weight_store.hpp"
+
+namespace actformer::model {
+
+class Generator : public torch::nn::Module {
+  public:
+    /// Weights start at random from `seed`, alike on every device; to(device) moves them. `type` is at::kFloat, or
+    /// at::kDouble for checks. Throws Error for settings of no network.
+    Generator(GeneratorSettings settings, std::uint64_t seed, at::ScalarType type = at::kFloat);
+
+    /// latent (N, streams, T, channels) of Prior::draw, labels (N) int64 -> motion (N, P*D, T, K), person by person. T up to
+    /// settings().frames; Throws Error beyond. In training mode one power iteration moves every spectral norm.
+    at::Tensor forward(const at::Tensor& latent, const at::Tensor& labels);
+
+    const GeneratorSettings& settings() const { return settings_; }
+    const WeightStore& weights() const { return weights_; }
+
+    /// Whether processors take the path of our own (the default), or libtorch's operators as on a GPU.
+    void set_fused(bool fused) { weights_.fused = fused; }
+
+  private:
+    bool takes_fused_path(const at::Tensor& latent) const { return weights_.fused && latent.is_cpu(); }
+    at::Tensor linear(const at::Tensor& x, const std::string& name) const;
+    at::Tensor per_token(const at::Tensor& latent) const;
+    at::Tensor tokens(const at::Tensor& latent, const at::Tensor& labels) const;
+    at::Tensor transformed(at::Tensor x) const;
+    at::Tensor fused_tokens(const at::Tensor& latent, const at::Tensor& labels) const;
+    at::Tensor fused_transformed(at::Tensor x) const;
+    at::Tensor motion(const at::Tensor& x) const;
+    at::Tensor positions() const;
+    at::Tensor block(const at::Tensor& x, const std::string& prefix) const;
+    at::Tensor attention(const at::Tensor& x, const std::string& prefix) const;
+    at::Tensor poses(const at::Tensor& x) const;
+    at::Tensor graph_layer(const at::Tensor& x, const std::string& name, const at::Tensor& sums) const;
+    at::Tensor shaped(const at::Tensor& poses) const;
+
+    GeneratorSettings settings_;
+    WeightStore weights_;
+    at::Tensor to_middle_, to_fine_, within_fine_;  ///< (hops, out, in) of a graphconv body
+};
+
+}  // namespace actformer::model

@@ -1,0 +1,73 @@
+// ActFormer's networks on paper: their weights in order, their layers and parameter counts. Knows nothing of torch.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/generators/actformer/coarsening.hpp"
+#include "model/generators/actformer/settings.hpp"
+#include "model/recognisers/stgcn.hpp"
+
+namespace actformer::model {
+
+/// How a weight of ActFormer starts.
+enum class Begin {
+    uniform,     ///< within one over the root of the inputs to an output, `reach`
+    normal,      ///< of deviation `reach`
+    orthogonal,  ///< rows or columns
+    zeros,
+    ones,
+    tiling,  ///< (frames, persons, width): a normal table over frames beside one over persons, deviation `reach`
+    sinusoids  ///< the same of sines and cosines
+};
+
+struct NetworkWeight {
+    std::string name;  ///< the layer's, a dot, "weight" or "bias"; or the name of a table
+    std::vector<std::int64_t> shape;
+    Begin begin = Begin::uniform;
+    double reach = 0;
+    bool spectral = false;  ///< divided by its largest singular value as a matrix of `rows` rows
+    std::int64_t rows = 0;
+    bool trained = true;
+
+    std::int64_t count() const;
+};
+
+/// One graph convolution of the discriminator: every (hop, input node) has its own temporal convolution, summed into the
+/// output nodes by `sums`. Its weight is (inputs, hops, out, taps, in).
+struct NodeConvolution {
+    std::uint32_t in = 0, out = 0, taps = 0, stride = 1, padding = 0;
+    bool bias = false;
+    HopMatrix sums;
+
+    std::uint32_t frames_out(std::uint32_t frames) const {
+        return (frames + 2 * padding - taps) / stride + 1;
+    }
+};
+
+/// Those before the last, full convolution.
+std::vector<NodeConvolution> node_convolutions(const DiscriminatorSettings& settings);
+
+/// The last convolution takes all nodes and 4 frames at a stride of 2, padded by 1: a weight (features, nodes, taps, in).
+constexpr std::uint32_t last_taps = 4;
+
+/// Channels of a graphconv body on the coarse, middle and fine graph.
+struct GraphBody {
+    std::uint32_t coarse = 128, middle = 64, fine = 32;
+};
+
+std::vector<NetworkWeight> generator_weights(const GeneratorSettings& settings);
+std::vector<NetworkWeight> discriminator_weights(const DiscriminatorSettings& settings);
+
+/// Transformer blocks in order: true for an I-Former, false for a T-Former.
+std::vector<bool> interacting_blocks(const GeneratorSettings& settings);
+
+/// Numbers that training moves.
+std::int64_t trained_count(const std::vector<NetworkWeight>& weights);
+
+/// Lines for `actformer model`; shapes are of one motion of `frames` frames.
+std::vector<SummaryLine> generator_summary(const GeneratorSettings& settings, std::uint32_t frames);
+std::vector<SummaryLine> discriminator_summary(const DiscriminatorSettings& settings, std::uint32_t frames);
+
+}  // namespace actformer::model

@@ -1,0 +1,68 @@
+#include "model/generators/actformer/prior.hpp"
+
+#include <ATen/Parallel.h>
+
+#include "base/error.hpp"
+#include "model/cpu/layer_clock.hpp"
+#include "model/cpu/random_kernel.hpp"
+
+namespace actformer::model {
+namespace {
+
+/// Added to the diagonal of covariances of rank far below their size, so that they have a factor in double.
+constexpr double jitter = 1e-6;
+
+constexpr std::uint8_t for_latents = 1, for_labels = 2;
+
+at::Tensor exact_covariance(const PriorSettings& settings, std::int64_t channel, std::int64_t frames) {
+    const double length = settings.length_scale * static_cast<double>(channel + 1) / settings.channels;
+    const auto t = at::arange(frames, at::kDouble);
+    return (-((t.unsqueeze(1) - t.unsqueeze(0)) / length).square()).exp();
+}
+
+}  // namespace
+
+Prior::Prior(const PriorSettings& settings, std::uint64_t seed) : settings_(settings), seed_(seed) {}
+
+at::Tensor Prior::covariance(const PriorSettings& settings, std::int64_t channel, std::int64_t frames) {
+    return settings.kind == PriorKind::gp ? exact_covariance(settings, channel, frames)
+                                          : at::ones({frames, frames}, at::kDouble);
+}
+
+at::Tensor Prior::factors(std::int64_t frames) const {
+    const std::lock_guard lock(mutex_);
+    auto& factors = factors_[frames];
+    if (factors.defined()) return factors;
+    std::vector<at::Tensor> covariances;
+    for (std::int64_t c = 0; c < settings_.channels; ++c)
+        covariances.push_back(exact_covariance(settings_, c, frames));
+    const auto smoothed = at::stack(covariances) + jitter * at::eye(frames, at::kDouble);
+    return factors = at::linalg_cholesky(smoothed).permute({1, 2, 0}).to(at::kFloat).contiguous();
+}
+
+at::Tensor Prior::draw(std::uint64_t index, std::int64_t count, std::int64_t frames,
+                       std::uint64_t first_sample) const {
+    const LayerTimer timer("prior");
+    const std::int64_t streams = settings_.streams, channels = settings_.channels;
+    const bool gp = settings_.kind == PriorKind::gp;
+    const auto drawn = gp ? frames : 1;
+    auto normals = at::empty({count, streams, drawn, channels}, at::kFloat);
+    cpu::normal_numbers({seed_, index, for_latents}, first_sample, count, streams * drawn * channels,
+                        normals.data_ptr<float>(), at::get_num_threads());
+    if (!gp) return normals.expand({count, streams, frames, channels}).contiguous();
+    const auto factors = this->factors(frames);
+    auto latent = at::empty_like(normals);
+    cpu::correlate(normals.data_ptr<float>(), factors.data_ptr<float>(), count * streams, frames, channels,
+                   latent.data_ptr<float>(), at::get_num_threads());
+    return latent;
+}
+
+at::Tensor Prior::labels(std::uint64_t index, std::int64_t count, std::int64_t classes,
+                         std::uint64_t first_sample) const {
+    auto labels = at::empty({count}, at::kLong);
+    cpu::whole_numbers({seed_, index, for_labels}, first_sample, count, static_cast<std::uint32_t>(classes),
+                       labels.data_ptr<std::int64_t>());
+    return labels;
+}
+
+}  // namespace actformer::model

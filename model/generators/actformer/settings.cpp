@@ -1,0 +1,143 @@
+#include "model/generators/actformer/settings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.hpp"
+
+namespace actformer::model {
+namespace {
+
+/// The names of an enumeration's values, in their order.
+const std::vector<std::string> prior_names{"gp", "gaussian"};
+const std::vector<std::string> position_names{"concat", "tiled", "independent", "fixed"};
+const std::vector<std::string> interaction_names{"iformer", "concat"};
+const std::vector<std::string> body_names{"transformer", "graphconv"};
+const std::vector<std::string> persons_names{"concat", "avgpool", "maxpool", "selfatt"};
+
+template <typename Enum>
+Enum named(const Config& config, const char* key, const std::vector<std::string>& names) {
+    const auto found = std::find(names.begin(), names.end(), config.get<std::string>(key));
+    return static_cast<Enum>(found - names.begin());
+}
+
+std::uint32_t whole(const Config& config, const char* key) {
+    return static_cast<std::uint32_t>(config.get<std::int64_t>(key));
+}
+
+void compare(const Config& config, std::uint32_t persons, std::size_t classes, const std::string& dataset) {
+    const auto wanted_persons = whole(config, "persons"), wanted_classes = whole(config, "classes");
+    if (wanted_persons != 0 && wanted_persons != persons)
+        throw Error("{}: {} person{} a clip, but the configuration says persons: {}", dataset, persons,
+                    persons == 1 ? "" : "s", wanted_persons);
+    if (wanted_classes != 0 && wanted_classes != classes)
+        throw Error("{}: {} classes, but the configuration says classes: {}", dataset, classes,
+                    wanted_classes);
+}
+
+void check_motion(const char* network, std::uint32_t joints, std::uint32_t persons, std::uint32_t classes,
+                  std::uint32_t numbers) {
+    if (joints < 2 || persons == 0 || classes == 0)
+        throw Error("{}: {} joints, {} persons and {} classes are too few", network, joints, persons,
+                    classes);
+    if (numbers != 3 && numbers != 6)
+        throw Error("{}: a joint has 3 numbers (a limb vector) or 6 (a rotation), not {}", network, numbers);
+}
+
+}  // namespace
+
+std::uint32_t GeneratorSettings::hidden() const {
+    return static_cast<std::uint32_t>(std::lround(width * mlp_ratio));
+}
+
+void check(const GeneratorSettings& s) {
+    check_motion("generator", s.joints(), s.persons, s.classes, s.numbers);
+    if (s.free_joint >= s.joints())
+        throw Error("generator: joint {} is none of the {}", s.free_joint, s.joints());
+    if (s.heads == 0 || s.width == 0 || s.width % s.heads != 0)
+        throw Error("generator: heads: {} do not divide width: {}; as in width: {}", s.heads, s.width,
+                    std::max(1U, s.width / std::max(1U, s.heads)) * std::max(1U, s.heads));
+    if (s.width % 2 != 0)
+        throw Error("generator: width: {} is odd; half of it is for frames and half for persons", s.width);
+    if (s.depth == 0 || s.hidden() == 0 || s.frames == 0 || s.prior.channels == 0)
+        throw Error("generator: depth, mlp_ratio, frames and latent must not be 0");
+    if (!(s.prior.length_scale > 0)) throw Error("generator: length_scale must be above 0 frames");
+    if (s.prior.streams != 1 && s.prior.streams != s.persons)
+        throw Error("generator: {} latents for {} persons", s.prior.streams, s.persons);
+}
+
+void check(const DiscriminatorSettings& s) {
+    check_motion("discriminator", s.joints(), s.persons, s.classes, s.numbers);
+    if (s.width == 0) throw Error("discriminator: d_width must not be 0");
+}
+
+std::vector<Key> network_keys() {
+    using Number = std::int64_t;
+    return {
+        {"persons", Number{0}, "persons a clip; 0 takes the dataset's", 0, 16},
+        {"classes", Number{0}, "classes; 0 takes the dataset's", 0, 100000},
+        {"frames", Number{60}, "frames a window, and the most that can be generated", fewest_frames, 4096},
+        {"width", Number{200}, "numbers a token of the generator", 2, 8192},
+        {"heads", Number{8}, "of attention; they divide the width", 1, 1024},
+        {"depth", Number{2}, "pairs of I-Former and T-Former; for one person: T-Formers", 1, 64},
+        {"mlp_ratio", 2.0, "inner width of a block, times its width", 0.01, 16},
+        {"latent", Number{120}, "channels of the prior", 1, 8192},
+        {"prior", std::string("gp"), "gp: Gaussian processes over frames; gaussian: one vector a motion", 0,
+         0, prior_names},
+        {"length_scale", 100.0, "frames, of the last channel's process", 0.001, 1e6},
+        {"shared_z", true, "one draw of the prior for all persons"},
+        {"pe", std::string("tiled"), "positions: concat [frames, persons], tiled, independent or fixed", 0, 0,
+         position_names},
+        {"interaction", std::string("iformer"), "between persons: iformer, or concat for one token", 0, 0,
+         interaction_names},
+        {"body", std::string("transformer"), "from token to pose: transformer (linear) or graphconv", 0, 0,
+         body_names},
+        {"d_width", Number{32}, "channels of the discriminator's first layer", 1, 1024},
+        {"d_persons", std::string("concat"), "persons in the discriminator: concat, or pooled features", 0, 0,
+         persons_names}};
+}
+
+GeneratorSettings generator_settings(const Config& config, const ingest::Topology& topology,
+                                     std::uint32_t persons, std::size_t classes, std::uint32_t numbers,
+                                     const std::string& dataset) {
+    compare(config, persons, classes, dataset);
+    GeneratorSettings s;
+    s.parents = topology.parents;
+    s.persons = persons;
+    s.classes = static_cast<std::uint32_t>(classes);
+    s.numbers = numbers;
+    s.free_joint =
+        numbers == 6 ? s.joints() - 1 : 0;  // rotations carry the position behind them (DESIGN 4.8)
+    s.frames = whole(config, "frames");
+    s.width = whole(config, "width");
+    s.heads = whole(config, "heads");
+    s.depth = whole(config, "depth");
+    s.mlp_ratio = config.get<double>("mlp_ratio");
+    s.prior.kind = named<PriorKind>(config, "prior", prior_names);
+    s.prior.channels = whole(config, "latent");
+    s.prior.length_scale = config.get<double>("length_scale");
+    s.prior.streams = config.get<bool>("shared_z") ? 1 : persons;
+    s.positions = named<Positions>(config, "pe", position_names);
+    s.interaction = named<Interaction>(config, "interaction", interaction_names);
+    s.body = named<Body>(config, "body", body_names);
+    check(s);
+    return s;
+}
+
+DiscriminatorSettings discriminator_settings(const Config& config, const ingest::Topology& topology,
+                                             std::uint32_t persons, std::size_t classes,
+                                             std::uint32_t numbers, const std::string& dataset) {
+    compare(config, persons, classes, dataset);
+    DiscriminatorSettings s;
+    s.parents = topology.parents;
+    s.persons = persons;
+    s.classes = static_cast<std::uint32_t>(classes);
+    s.numbers = numbers;
+    s.width = whole(config, "d_width");
+    s.persons_in = named<PersonsInD>(config, "d_persons", persons_names);
+    check(s);
+    return s;
+}
+
+}  // namespace actformer::model

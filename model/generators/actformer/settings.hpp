@@ -1,0 +1,101 @@
+// What ActFormer's generator and discriminator are made of (DESIGN 4.4 to 4.6), and the configuration's keys that say so.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ingest/dataset/topology.hpp"
+#include "model/train/config.hpp"
+
+namespace actformer::model {
+
+enum class PriorKind {
+    gp,       ///< every channel a Gaussian process over the frames
+    gaussian  ///< one vector, repeated over the frames
+};
+
+struct PriorSettings {
+    PriorKind kind = PriorKind::gp;
+    std::uint32_t channels = 120;
+    double length_scale = 100;  ///< frames, of the last channel; channel c has (c+1)/channels of it
+    std::uint32_t streams = 1;  ///< draws a motion: 1, or one a person
+
+    bool operator==(const PriorSettings&) const = default;
+};
+
+enum class Positions {
+    concat,       ///< [one table over frames, one over persons]
+    tiled,        ///< a table over both, started from such a tiling
+    independent,  ///< a table over both, every number started on its own
+    fixed         ///< sinusoids, [over frames, over persons]; not trained
+};
+
+enum class Interaction {
+    iformer,  ///< attention over the persons of a frame, before every attention over frames
+    concat    ///< one token a frame for all persons; the persons part in the last layer
+};
+
+enum class Body {
+    transformer,  ///< a frame's token gives its pose in one linear layer
+    graphconv     ///< a frame's token becomes the coarse graph; graph convolutions upsample it to the joints
+};
+
+struct GeneratorSettings {
+    std::vector<int> parents;  ///< -1 for the root
+    std::uint32_t persons = 1, classes = 0;
+    std::uint32_t numbers = 3;     ///< a joint: 3 for limb vectors, 6 for rotations
+    std::uint32_t free_joint = 0;  ///< the joint that carries a position and is not normalised
+    std::uint32_t frames = 60;     ///< of the table of positions: no motion can be longer
+    std::uint32_t width = 200, heads = 8, depth = 2;
+    double mlp_ratio = 2;
+    PriorSettings prior;
+    Positions positions = Positions::tiled;
+    Interaction interaction = Interaction::iformer;
+    Body body = Body::transformer;
+
+    std::uint32_t joints() const { return static_cast<std::uint32_t>(parents.size()); }
+    std::uint32_t hidden() const;  ///< width of the blocks' inner layer
+    /// Persons that have tokens of their own: 1 where all share one.
+    std::uint32_t tokens_a_frame() const { return interaction == Interaction::concat ? 1 : persons; }
+    bool operator==(const GeneratorSettings&) const = default;
+};
+
+enum class PersonsInD {
+    concat,   ///< side by side on the channels
+    avgpool,  ///< each on its own, their features' mean
+    maxpool,  ///< their features' maximum
+    selfatt   ///< their features' mean behind an attention over the persons
+};
+
+struct DiscriminatorSettings {
+    std::vector<int> parents;
+    std::uint32_t persons = 1, classes = 0, numbers = 3;
+    std::uint32_t width = 32;  ///< channels of the first layer; each of the four behind it doubles them
+    PersonsInD persons_in = PersonsInD::concat;
+
+    std::uint32_t joints() const { return static_cast<std::uint32_t>(parents.size()); }
+    std::uint32_t features() const { return 16 * width; }
+    bool operator==(const DiscriminatorSettings&) const = default;
+};
+
+/// Frames that leave at least one to the discriminator's last layer.
+constexpr std::uint32_t fewest_frames = 16;
+
+/// Throw Error where the settings describe no network.
+void check(const GeneratorSettings& settings);
+void check(const DiscriminatorSettings& settings);
+
+/// The configuration's keys that decide on the networks, with the paper's values.
+std::vector<Key> network_keys();
+
+/// The networks of a configuration that holds network_keys(), for a dataset named `dataset` in complaints. Throw Error where
+/// the configuration asks for other persons or classes, or for what cannot be built (heads that do not divide the width).
+GeneratorSettings generator_settings(const Config& config, const ingest::Topology& topology,
+                                     std::uint32_t persons, std::size_t classes, std::uint32_t numbers,
+                                     const std::string& dataset);
+DiscriminatorSettings discriminator_settings(const Config& config, const ingest::Topology& topology,
+                                             std::uint32_t persons, std::size_t classes,
+                                             std::uint32_t numbers, const std::string& dataset);
+
+}  // namespace actformer::model

@@ -1,0 +1,56 @@
+#include "model/nn/adam.hpp"
+
+#include <ATen/Parallel.h>
+
+#include <cmath>
+
+#include "model/cpu/layer_clock.hpp"
+
+namespace actformer::model {
+
+Adam::Adam(FlatParameters& parameters, const AdamSettings& settings)
+    : parameters_(&parameters), settings_(settings) {
+    squares_ = at::zeros_like(parameters.values());
+    if (settings.beta1 > 0) means_ = at::zeros_like(squares_);
+    if (!squares_.is_cpu()) scratch_ = at::empty_like(squares_);
+}
+
+void Adam::step(double share) {
+    const LayerTimer timer("Adam");
+    ++steps;
+    const auto t = static_cast<double>(steps);
+    const double rate = share * settings_.rate / (1 - std::pow(settings_.beta1, t));
+    const double root = std::sqrt(1 - std::pow(settings_.beta2, t));
+    squares_.is_cpu() ? step_here(rate, root) : step_in_operators(rate, root);
+}
+
+/// One pass over memory instead of one an operator.
+void Adam::step_here(double rate, double root) {
+    const auto b1 = static_cast<float>(settings_.beta1), b2 = static_cast<float>(settings_.beta2);
+    const auto step = static_cast<float>(rate), over = static_cast<float>(1 / root),
+               epsilon = static_cast<float>(settings_.epsilon);
+    auto* value = parameters_->values().data_ptr<float>();
+    const auto* gradient = parameters_->gradients().data_ptr<float>();
+    auto* mean = means_.defined() ? means_.data_ptr<float>() : nullptr;
+    auto* square = squares_.data_ptr<float>();
+    at::parallel_for(0, squares_.numel(), 1 << 15, [=](std::int64_t first, std::int64_t last) {
+        for (std::int64_t i = first; i < last; ++i) {
+            const float g = gradient[i];
+            square[i] = b2 * square[i] + (1 - b2) * g * g;
+            const float m = mean ? mean[i] = b1 * mean[i] + (1 - b1) * g : g;
+            value[i] -= step * m / (std::sqrt(square[i]) * over + epsilon);
+        }
+    });
+}
+
+void Adam::step_in_operators(double rate, double root) {
+    const at::NoGradGuard no_gradients;
+    const auto& gradient = parameters_->gradients();
+    squares_.mul_(settings_.beta2).addcmul_(gradient, gradient, 1 - settings_.beta2);
+    at::sqrt_out(scratch_, squares_);
+    scratch_.div_(root).add_(settings_.epsilon);
+    if (means_.defined()) means_.lerp_(gradient, 1 - settings_.beta1);
+    parameters_->values().addcdiv_(means_.defined() ? means_ : gradient, scratch_, -rate);
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,45 @@
+#include "model/nn/flat_parameters.hpp"
+
+namespace actformer::model {
+namespace {
+
+constexpr std::int64_t vector = 16;  // numbers of 64 bytes
+
+std::int64_t room_for(const at::Tensor& parameter) {
+    return (parameter.numel() + vector - 1) / vector * vector;
+}
+
+}  // namespace
+
+FlatParameters::FlatParameters(std::vector<at::Tensor> parameters, std::int64_t remarks)
+    : parameters_(std::move(parameters)) {
+    std::int64_t count = 0;
+    for (const auto& parameter : parameters_) count += room_for(parameter);
+    const auto options =
+        at::TensorOptions(at::kFloat).device(parameters_.empty() ? at::kCPU : parameters_[0].device());
+    values_ = at::zeros({count}, options);
+    message_ = at::zeros({count + remarks}, options);
+    gradients_ = message_.narrow(0, 0, count);
+    remarks_ = message_.narrow(0, count, remarks);
+    const at::NoGradGuard no_gradients;
+    std::int64_t first = 0;
+    for (auto& parameter : parameters_) {
+        const auto part = [&](const at::Tensor& all) {
+            return all.narrow(0, first, parameter.numel()).view(parameter.sizes());
+        };
+        part(values_).copy_(parameter);
+        parameter.set_data(part(values_));
+        parameter.mutable_grad() = part(gradients_);
+        first += room_for(parameter);
+    }
+}
+
+void FlatParameters::zero_gradients() {
+    gradients_.zero_();
+}
+
+void FlatParameters::want_gradients(bool wanted) {
+    for (auto& parameter : parameters_) parameter.set_requires_grad(wanted);
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,62 @@
+// The ST-GCN recogniser on paper: its layers and its weights, named as in the public ST-GCN (DESIGN 4.8).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "model/recognisers/graph.hpp"
+
+namespace actformer::model {
+
+struct StgcnSettings {
+    std::uint32_t channels = 3;  ///< numbers a joint, those of all persons together
+    std::uint32_t classes = 0;
+    Graph graph;
+    double width =
+        1;  ///< times the public layers' 64, 128 and 256 channels, to the nearest 16: whole vectors
+    double dropout = 0.5;  ///< behind every temporal convolution
+
+    bool operator==(const StgcnSettings&) const = default;
+};
+
+/// Graph convolution, temporal convolution of 9 frames, shortcut.
+struct StgcnLayer {
+    enum class Shortcut { none, identity, convolution };
+    std::uint32_t in = 0, out = 0, stride = 1;
+    Shortcut shortcut = Shortcut::identity;
+};
+
+constexpr std::uint32_t temporal_taps = 9;
+
+std::vector<StgcnLayer> stgcn_layers(const StgcnSettings& settings);
+
+/// How a weight starts.
+enum class Start { uniform, zeros, ones };
+
+struct WeightInfo {
+    std::string name;
+    std::vector<std::int64_t> shape;
+    Start start = Start::uniform;
+    double reach = 0;     ///< uniform in [-reach, reach]
+    bool trained = true;  ///< running means and variances are not
+
+    std::int64_t count() const;
+};
+
+/// Every weight, in the order of the public state_dict's layers.
+std::vector<WeightInfo> stgcn_weights(const StgcnSettings& settings);
+
+/// A line of the summary that `actformer model` prints.
+struct SummaryLine {
+    std::string layer, kind;
+    std::vector<std::int64_t> shape;  ///< of one sample's output
+    std::int64_t parameters = 0;      ///< trained numbers
+};
+
+std::vector<SummaryLine> stgcn_summary(const StgcnSettings& settings, std::uint32_t frames);
+
+/// Throws Error where the settings describe no network.
+void check(const StgcnSettings& settings);
+
+}  // namespace actformer::model

@@ -1,0 +1,264 @@
+#include "model/train/config.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/text/printable.hpp"
+
+namespace actformer::model {
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i)
+        for (std::size_t j = 0; j <= b.size(); ++j) {
+            if (i == 0 || j == 0) {
+                d[i][j] = i + j;
+                continue;
+            }
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    return d[a.size()][b.size()];
+}
+
+template <typename T>
+std::optional<T> number_of(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+std::optional<bool> truth_of(const std::string& text) {
+    if (text == "true" || text == "yes" || text == "on") return true;
+    if (text == "false" || text == "no" || text == "off") return false;
+    return std::nullopt;
+}
+
+std::string range_of(const Key& key) {
+    const bool bounded = key.least > std::numeric_limits<double>::lowest();
+    if (key.most < std::numeric_limits<double>::max())
+        return fmt::format(" from {:g} to {:g}", key.least, key.most);
+    return bounded ? fmt::format(" of at least {:g}", key.least) : "";
+}
+
+std::string what_is_wanted(const Key& key) {
+    struct Say {
+        const Key& key;
+        std::string operator()(bool) const { return "true or false"; }
+        std::string operator()(std::int64_t) const { return "a whole number" + range_of(key); }
+        std::string operator()(double) const { return "a number" + range_of(key); }
+        std::string operator()(const std::string&) const {
+            if (key.choices.empty()) return "text";
+            return fmt::format("one of {}", fmt::join(key.choices, ", "));
+        }
+        std::string operator()(const std::vector<std::int64_t>&) const {
+            return "a list of whole numbers" + range_of(key) + ", as in [10, 50]";
+        }
+    };
+    return std::visit(Say{key}, key.preset);
+}
+
+bool in_range(const Key& key, double value) {
+    return value >= key.least && value <= key.most;
+}
+
+std::string scalar(const YAML::Node& node) {
+    return node.IsScalar() ? node.Scalar() : std::string();
+}
+
+/// The node's value in the key's type; none where it is of another type or out of range.
+std::optional<Value> parse(const Key& key, const YAML::Node& node) {
+    struct As {
+        const Key& key;
+        const YAML::Node& node;
+        std::optional<Value> operator()(bool) const { return truth_of(scalar(node)); }
+        std::optional<Value> operator()(std::int64_t) const {
+            const auto number = number_of<std::int64_t>(scalar(node));
+            if (!number || !in_range(key, static_cast<double>(*number))) return std::nullopt;
+            return *number;
+        }
+        std::optional<Value> operator()(double) const {
+            const auto number = number_of<double>(scalar(node));
+            if (!number || !std::isfinite(*number) || !in_range(key, *number)) return std::nullopt;
+            return *number;
+        }
+        std::optional<Value> operator()(const std::string&) const {
+            if (node.IsNull()) return std::string();
+            if (!node.IsScalar()) return std::nullopt;
+            const auto& text = node.Scalar();
+            if (!key.choices.empty() &&
+                std::find(key.choices.begin(), key.choices.end(), text) == key.choices.end())
+                return std::nullopt;
+            return text;
+        }
+        std::optional<Value> operator()(const std::vector<std::int64_t>&) const {
+            if (!node.IsSequence()) return std::nullopt;
+            std::vector<std::int64_t> numbers;
+            for (const auto& item : node) {
+                const auto number = number_of<std::int64_t>(scalar(item));
+                if (!number || !in_range(key, static_cast<double>(*number))) return std::nullopt;
+                numbers.push_back(*number);
+            }
+            return numbers;
+        }
+    };
+    return std::visit(As{key, node}, key.preset);
+}
+
+Value parsed(const Key& key, const YAML::Node& node, const std::string& where) {
+    if (auto value = parse(key, node)) return *value;
+    YAML::Emitter given;
+    given << YAML::Flow << node;
+    throw Error("{}: {} must be {}, not '{}'", where, key.name, what_is_wanted(key),
+                printable(given.c_str()));
+}
+
+std::string text_of(const Value& value) {
+    struct Say {
+        std::string operator()(bool v) const { return v ? "true" : "false"; }
+        std::string operator()(std::int64_t v) const { return std::to_string(v); }
+        std::string operator()(double v) const { return fmt::format("{}", v); }
+        std::string operator()(const std::string& v) const {
+            YAML::Emitter out;
+            out << YAML::DoubleQuoted << v;
+            return out.c_str();
+        }
+        std::string operator()(const std::vector<std::int64_t>& v) const {
+            return fmt::format("[{}]", fmt::join(v, ", "));
+        }
+    };
+    return std::visit(Say{}, value);
+}
+
+}  // namespace
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
+    std::string best;
+    std::size_t fewest = std::max<std::size_t>(2, word.size() / 2);
+    for (const auto& candidate : candidates) {
+        const bool part = word.size() > 2 && (candidate.find(word) != std::string::npos ||
+                                              word.find(candidate) != std::string::npos);
+        const auto distance = part ? std::size_t{1} : edit_distance(word, candidate);
+        if (distance < fewest || (distance == fewest && best.empty())) {
+            best = candidate;
+            fewest = distance;
+        }
+    }
+    return best;
+}
+
+std::string model_named_in(const std::filesystem::path& file) try {
+    const auto root = YAML::LoadFile(file.string());
+    return root.IsMap() && root["model"] ? scalar(root["model"]) : "";
+} catch (const YAML::Exception&) {
+    return {};
+}
+
+Config::Config(std::string model, std::vector<Key> keys) : model_(std::move(model)), keys_(std::move(keys)) {
+    for (const auto& key : keys_) values_.push_back(key.preset);
+}
+
+std::size_t Config::index_of(const std::string& name, const std::string& where) const {
+    std::vector<std::string> names{"model"};
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+        if (keys_[i].name == name) return i;
+        names.push_back(keys_[i].name);
+    }
+    const auto nearest = nearest_word(name, names);
+    if (nearest.empty()) {
+        std::sort(names.begin(), names.end());
+        throw Error("{}: there is no key '{}'; the keys are {}", where, printable(name),
+                    fmt::join(names, ", "));
+    }
+    throw Error("{}: there is no key '{}'; did you mean '{}'?", where, printable(name), nearest);
+}
+
+bool Config::has(const std::string& name) const {
+    return std::any_of(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name == name; });
+}
+
+const Value& Config::value(const std::string& name) const {
+    return values_[index_of(name, "configuration")];
+}
+
+void Config::load(const std::filesystem::path& file) {
+    try {
+        take(YAML::LoadFile(file.string()), file.string());
+    } catch (const YAML::BadFile&) {
+        throw Error("{}: cannot be read; is the path right?", file.string());
+    } catch (const YAML::Exception& e) {
+        throw Error("{}:{}: no YAML: {}", file.string(), e.mark.line + 1, e.msg);
+    }
+}
+
+void Config::load_text(const std::string& text, const std::string& where) {
+    try {
+        take(YAML::Load(text), where);
+    } catch (const YAML::Exception& e) {
+        throw Error("{}:{}: no YAML: {}", where, e.mark.line + 1, e.msg);
+    }
+}
+
+void Config::take(const YAML::Node& root, const std::string& file) {
+    if (!root.IsMap()) throw Error("{}: not a list of `key: value` lines", file);
+    std::set<std::string> seen;
+    for (const auto& entry : root) {
+        const auto where = fmt::format("{}:{}", file, entry.first.Mark().line + 1);
+        const auto name = scalar(entry.first);
+        if (!seen.insert(name).second) throw Error("{}: {} is given twice", where, printable(name));
+        if (name == "model") {
+            if (scalar(entry.second) == model_) continue;
+            throw Error("{}: a configuration for model '{}', not '{}'", where,
+                        printable(scalar(entry.second)), model_);
+        }
+        const auto i = index_of(name, where);
+        values_[i] = parsed(keys_[i], entry.second, where);
+    }
+    if (!seen.contains("model")) throw Error("{}: the line `model: {}` is missing", file, model_);
+}
+
+void Config::override_with(const std::string& assignment) {
+    const auto where = fmt::format("'{}'", printable(assignment));
+    const auto equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0) throw Error("{}: overrides are written key=value", where);
+    const auto i = index_of(assignment.substr(0, equals), where);
+    const auto text = assignment.substr(equals + 1);
+    YAML::Node node(text);
+    if (std::holds_alternative<std::vector<std::int64_t>>(keys_[i].preset)) try {
+            node = YAML::Load(text.starts_with('[') ? text : "[" + text + "]");
+        } catch (const YAML::Exception&) {
+            throw Error("{}: {} must be {}", where, keys_[i].name, what_is_wanted(keys_[i]));
+        }
+    values_[i] = parsed(keys_[i], node, where);
+}
+
+std::string Config::yaml() const {
+    std::string out = fmt::format("model: {}\n", model_);
+    for (std::size_t i = 0; i < keys_.size(); ++i)
+        out += fmt::format("{}: {}  # {}\n", keys_[i].name, text_of(values_[i]), keys_[i].meaning);
+    return out;
+}
+
+std::vector<std::string> Config::differences(const Config& other,
+                                             const std::vector<std::string>& ignored) const {
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+        if (std::find(ignored.begin(), ignored.end(), keys_[i].name) != ignored.end()) continue;
+        if (values_[i] == other.values_[i]) continue;
+        out.push_back(fmt::format("{} is {} there and {} here", keys_[i].name, text_of(other.values_[i]),
+                                  text_of(values_[i])));
+    }
+    return out;
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,88 @@
+#include "model/train/judge.hpp"
+
+#include "base/checksum/checksum.hpp"
+#include "eval/metrics/scores.hpp"
+#include "eval/scoring/features.hpp"
+#include "eval/stgcn/recogniser.hpp"
+#include "eval/stgcn/tuning.hpp"
+#include "model/train/window_feed.hpp"
+
+namespace actformer::model {
+namespace {
+
+std::filesystem::path weights_at(const std::filesystem::path& recogniser) {
+    std::error_code ignored;
+    return std::filesystem::is_directory(recogniser, ignored) ? recogniser / "weights-best.h5" : recogniser;
+}
+
+constexpr std::uint32_t together = 64;
+
+}  // namespace
+
+struct Judge::Parts {
+    Parts(const std::filesystem::path& path, const std::string& opencl)
+        : checksum(checksum_file(path)),
+          weights(eval::read_weights(path)),
+          device(opencl),
+          recogniser(device, weights, eval::load_tiles(device.info())) {}
+
+    /// `count` sequences (count, P*D, frames, K) with their labels, added to `samples`.
+    void see(std::span<const float> values, std::span<const std::uint32_t> labels, eval::Samples& samples) {
+        const auto got = recogniser.recognise(values, static_cast<std::uint32_t>(labels.size()), frames);
+        samples.features.insert(samples.features.end(), got.features.begin(), got.features.end());
+        samples.logits.insert(samples.logits.end(), got.logits.begin(), got.logits.end());
+        samples.labels.insert(samples.labels.end(), labels.begin(), labels.end());
+    }
+
+    eval::Samples nothing() const { return {weights.features(), weights.classes, {}, {}, {}}; }
+
+    std::string checksum;
+    eval::Weights weights;
+    kernels::Device device;
+    eval::Recogniser recogniser;
+    eval::Statistics real;
+    double real_accuracy = 0;
+    std::uint32_t frames = 0;
+};
+
+Judge::Judge(const std::filesystem::path& recogniser, const std::string& opencl,
+             const ingest::Dataset& dataset, const kernels::ClipStore& clips, std::uint32_t frames)
+    : parts_(std::make_unique<Parts>(weights_at(recogniser), opencl)) {
+    eval::check_fits(parts_->weights, dataset);
+    parts_->frames = frames;
+    auto samples = parts_->nothing();
+    const auto one = clips.table().frame_values() * frames;
+    for_each_window(clips, together, frames, [&](const Windows& windows) {
+        parts_->see({windows.values, windows.count * one}, {windows.labels, windows.count}, samples);
+    });
+    parts_->real = eval::statistics_of(samples);
+    parts_->real_accuracy = eval::confusion_of(samples).mean_class_accuracy();
+}
+
+Judge::~Judge() = default;
+
+double Judge::real_accuracy() const {
+    return parts_->real_accuracy;
+}
+
+std::size_t Judge::real_windows() const {
+    return parts_->real.samples;
+}
+
+const std::string& Judge::checksum() const {
+    return parts_->checksum;
+}
+
+JudgeScores Judge::score(const Labelled& motions) {
+    auto samples = parts_->nothing();
+    const auto one = motions.values.size() / motions.labels.size();
+    for (std::size_t first = 0; first < motions.labels.size(); first += together) {
+        const auto count = std::min<std::size_t>(together, motions.labels.size() - first);
+        parts_->see(std::span(motions.values).subspan(first * one, count * one),
+                    std::span(motions.labels).subspan(first, count), samples);
+    }
+    const auto apart = eval::distances(parts_->real, eval::statistics_of(samples));
+    return {eval::confusion_of(samples).mean_class_accuracy(), apart.whole, apart.mean.value_or(0)};
+}
+
+}  // namespace actformer::model

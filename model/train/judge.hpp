@@ -1,0 +1,48 @@
+// Scores of a generator while it trains: what a recogniser, run in OpenCL, makes of its motions beside the real windows of
+// the same split (DESIGN 4.9).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "ingest/dataset/dataset.hpp"
+#include "kernels/sampler.hpp"
+
+namespace actformer::model {
+
+/// Motions of known classes: values (labels.size(), P*D, T, K).
+struct Labelled {
+    std::vector<float> values;
+    std::vector<std::uint32_t> labels;
+};
+
+struct JudgeScores {
+    double accuracy = 0;   ///< 0..1, the mean over classes of the hit rate
+    double fid_whole = 0;  ///< FIDw
+    double fid_mean = 0;   ///< FIDm; 0 where no class has two motions on both sides
+};
+
+class Judge {
+  public:
+    /// `recogniser`: weights, or the folder of a training, whose best are taken. Looks at every consecutive window of `clips`,
+    /// a split of `dataset`. Throws Error where the recogniser does not fit the dataset.
+    Judge(const std::filesystem::path& recogniser, const std::string& opencl, const ingest::Dataset& dataset,
+          const kernels::ClipStore& clips, std::uint32_t frames);
+    ~Judge();
+
+    double real_accuracy() const;  ///< of the real windows
+    std::size_t real_windows() const;
+    const std::string& checksum() const;  ///< of the recogniser's weights
+
+    /// From one thread at a time; which one does not matter.
+    JudgeScores score(const Labelled& motions);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace actformer::model

@@ -1,0 +1,37 @@
+// Processes that train one model together: libtorch's process groups, Gloo on the processor and NCCL on NVIDIA's GPUs.
+// Includes ATen headers, and c10d's only in its source.
+#pragma once
+
+#include <ATen/ATen.h>
+
+#include <memory>
+
+#include "model/train/place.hpp"
+
+namespace actformer::model {
+
+class Processes {
+  public:
+    /// One process alone: averages and copies change nothing.
+    Processes();
+
+    /// Waits until all have come. Throws Error where they cannot meet, or this build has no way to connect them on
+    /// `device`.
+    Processes(Place place, const at::Device& device);
+    ~Processes();
+
+    const Place& place() const { return place_; }
+
+    /// The mean over all processes of what each has in `values`, in place, the same bits in each.
+    void average(at::Tensor values) const;
+
+    /// What rank 0 has in `values`, in each.
+    void share(at::Tensor values) const;
+
+  private:
+    struct Group;
+    Place place_;
+    std::unique_ptr<Group> group_;  ///< none of one alone
+};
+
+}  // namespace actformer::model

@@ -1,0 +1,39 @@
+// A training's folder: config.yaml, log.jsonl, checkpoints and weights, held by one process at a time.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "model/train/config.hpp"
+
+namespace actformer::model {
+
+class RunFolder {
+  public:
+    /// Opens or makes `folder`. Throws Error where it cannot be made, or another process trains there.
+    explicit RunFolder(std::filesystem::path folder);
+    ~RunFolder();
+    RunFolder(const RunFolder&) = delete;
+    RunFolder& operator=(const RunFolder&) = delete;
+
+    const std::filesystem::path& path() const { return folder_; }
+    std::filesystem::path config() const { return folder_ / "config.yaml"; }
+
+    /// Holds the training to the settings it began with, keys in `free` apart, and writes config.yaml. `blank` knows the
+    /// keys. Throws Error naming what differs.
+    void keep_to(const Config& config, Config blank, const std::vector<std::string>& free) const;
+
+    /// Adds a line to log.jsonl.
+    void log(const nlohmann::ordered_json& line) const;
+
+    /// Keeps of log.jsonl the lines of the first `epochs` epochs: those after them are trained, and logged, again.
+    void rewind_log(std::uint64_t epochs) const;
+
+  private:
+    std::filesystem::path folder_;
+    int lock_ = -1;
+};
+
+}  // namespace actformer::model

@@ -1,0 +1,64 @@
+#include "model/train/training.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace actformer::model {
+namespace {
+
+/// To a GPU by way of memory that it can read while the processor goes on.
+at::Tensor sent(const at::Tensor& values, const at::Device& device) {
+    if (device.is_cpu()) return values;
+    return values.pin_memory().to(device, values.scalar_type(), /*non_blocking=*/true);
+}
+
+}  // namespace
+
+std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step) {
+    std::uint64_t x = seed * 0x9E3779B97F4A7C15U + step + 1;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
+    return x ^ (x >> 31);
+}
+
+at::Device torch_device(const std::string& name) {
+    try {
+        const at::Device device(name);
+        at::zeros({1}, at::TensorOptions().device(device));
+        return device;
+    } catch (const std::exception&) {
+        throw Error("device {}: this libtorch cannot train there; device=cpu always works", name);
+    }
+}
+
+at::ScalarType torch_type(const std::string& precision) {
+    return precision == "float64" ? at::kDouble : at::kFloat;
+}
+
+ingest::Dataset dataset_to_train_on(const std::string& data) {
+    if (data.empty()) throw Error("no dataset: give --data DATASET, or data: in the configuration");
+    const auto folders = ingest::datasets_at(data);
+    if (folders.size() != 1)
+        throw Error("{}: holds {} datasets; train on one, as in {}", data, folders.size(),
+                    folders[0].string());
+    return ingest::Dataset(folders[0]);
+}
+
+at::Tensor values_of(const Windows& windows, std::int64_t channels, std::int64_t frames, std::int64_t joints,
+                     const at::Device& device) {
+    return sent(at::from_blob(windows.values, {windows.count, channels, frames, joints}, at::kFloat), device);
+}
+
+at::Tensor labels_of(const Windows& windows, const at::Device& device) {
+    auto labels = at::empty({windows.count}, at::kLong);
+    std::copy_n(windows.labels, windows.count, labels.data_ptr<std::int64_t>());
+    return sent(labels, device);
+}
+
+std::string one_line(const c10::Error& error) {
+    const std::string text = error.what_without_backtrace();
+    return text.substr(0, text.find('\n'));
+}
+
+}  // namespace actformer::model

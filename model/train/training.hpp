@@ -1,0 +1,36 @@
+// What every trainer does alike. Includes torch headers: for model/'s own sources and tests only.
+#pragma once
+
+#include <ATen/ATen.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ingest/dataset/dataset.hpp"
+#include "model/train/window_feed.hpp"
+
+namespace actformer::model {
+
+/// A well-mixed number for what is random in step `step`.
+std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step);
+
+/// Throws Error where this libtorch cannot work on `name`, as in "cpu" or "cuda:1".
+at::Device torch_device(const std::string& name);
+
+/// Of a configuration's "float32" or "float64".
+at::ScalarType torch_type(const std::string& precision);
+
+/// The one dataset at `data`, a configuration's key. Throws Error where it is empty or holds several.
+ingest::Dataset dataset_to_train_on(const std::string& data);
+
+/// Windows on their way to `device`: (count, channels, frames, joints) float32, and their labels (count) int64. On the
+/// CPU the values are the feed's own memory, good until it moves on.
+at::Tensor values_of(const Windows& windows, std::int64_t channels, std::int64_t frames, std::int64_t joints,
+                     const at::Device& device);
+at::Tensor labels_of(const Windows& windows, const at::Device& device);
+
+/// libtorch's exception as one line without its stack.
+std::string one_line(const c10::Error& error);
+
+}  // namespace actformer::model

@@ -1,0 +1,53 @@
+// What is drawn: one motion of one or more persons as joint positions, with a title.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ingest/dataset/motion.hpp"
+#include "ingest/dataset/topology.hpp"
+#include "ingest/formats/ntu/skeleton_file.hpp"
+
+namespace actformer::reports {
+
+/// joints (frames, persons, K, 3) float32 in metres, y up, right-handed, for K joints of `topology`.
+struct Figure {
+    std::string title;  ///< UTF-8; may be empty, and is cut to fit
+    ingest::Topology topology;
+    std::uint32_t persons = 0, frames = 0;
+    double fps = 30;
+    std::vector<float> joints;
+    std::vector<std::uint8_t> seen;  ///< (frames, persons), 0 where a body is not there; empty: always there
+    std::optional<std::uint32_t> label;  ///< its class, where that is known
+
+    const float* at(std::size_t frame, std::size_t person, std::size_t joint) const {
+        return &joints[((frame * persons + person) * topology.joints() + joint) * 3];
+    }
+    bool visible(std::size_t frame, std::size_t person) const {
+        return seen.empty() || seen[frame * persons + person] != 0;
+    }
+    double seconds() const { return frames / fps; }
+};
+
+/// The most persons that one figure may have: beyond it, nobody could tell them apart.
+constexpr std::uint32_t most_persons = 64;
+
+/// Throws Error naming the figure and the place where it cannot be drawn: no frames, nobody in sight, too
+/// many persons, sizes that disagree, or (of visible bodies) a joint that is not a number or further than 100
+/// km away.
+void check(const Figure& figure);
+
+/// `bone_length` (persons, K) in metres. Throws Error as check() does.
+Figure figure_of(const ingest::Motion& motion, const ingest::Topology& topology,
+                 const std::vector<float>& bone_length, double fps, std::string title);
+
+/// A raw capture, every body in it a person that is seen in some frames. Throws Error as check() does.
+Figure figure_of(const ingest::SkeletonFile& file, std::string title);
+
+/// (K) lengths in metres to draw a body whose own are unknown: an adult's for NTU's 25 joints, else 0.2 each;
+/// the root's is 0.
+std::vector<float> usual_bone_lengths(const ingest::Topology& topology);
+
+}  // namespace actformer::reports

@@ -1,0 +1,254 @@
+#include "reports/figures/gather.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/motions_file.hpp"
+#include "ingest/formats/ntu/skeleton_file.hpp"
+
+namespace actformer::reports {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A motion that may be drawn: its place in its file, and its class where that is known.
+struct Candidate {
+    std::size_t index = 0;
+    std::optional<std::uint32_t> label;
+};
+
+/// Spreads `count` picks evenly over the classes, and within a class over its clips. In the order of the
+/// classes.
+std::vector<std::size_t> spread(const std::vector<Candidate>& candidates, std::size_t count) {
+    std::map<std::int64_t, std::vector<std::size_t>> by_class;
+    for (const auto& c : candidates) by_class[c.label ? std::int64_t{*c.label} : -1].push_back(c.index);
+    std::vector<std::vector<std::size_t>> classes;
+    for (auto& [label, indices] : by_class) classes.push_back(std::move(indices));
+
+    std::vector<std::size_t> shares(classes.size(), 0);
+    count = std::min(count, candidates.size());
+    for (std::size_t left = count, round = 0; left > 0; ++round) {
+        const std::size_t now = std::min(left, classes.size());
+        for (std::size_t i = 0; i < now; ++i) {
+            auto& share = shares[i * classes.size() / now];
+            if (share < classes[i * classes.size() / now].size()) {
+                ++share;
+                --left;
+            }
+        }
+        if (round > candidates.size()) break;
+    }
+    std::vector<std::size_t> picks;
+    for (std::size_t c = 0; c < classes.size(); ++c)
+        for (std::size_t i = 0; i < shares[c]; ++i)
+            picks.push_back(classes[c][i * classes[c].size() / shares[c]]);
+    return picks;
+}
+
+/// As many of each class as `wanted` says, or else `count` of all of them.
+std::vector<std::size_t> chosen(const std::vector<Candidate>& candidates, const Wanted& wanted,
+                                std::size_t count) {
+    if (wanted.per_class == 0) return spread(candidates, count);
+    std::map<std::int64_t, std::size_t> taken;
+    std::vector<Candidate> some;
+    for (const auto& c : candidates)
+        if (taken[c.label ? std::int64_t{*c.label} : -1]++ < wanted.per_class) some.push_back(c);
+    return spread(some, some.size());
+}
+
+/// The class that --class asks for: its name, or its number counted from 0.
+std::uint32_t class_called(const std::string& text, const std::vector<std::string>& classes,
+                           const std::string& where) {
+    if (const auto found = std::ranges::find(classes, text); found != classes.end())
+        return static_cast<std::uint32_t>(found - classes.begin());
+    const bool number =
+        !text.empty() && text.size() < 7 && text.find_first_not_of("0123456789") == std::string::npos;
+    if (number && (classes.empty() || std::stoul(text) < classes.size()))
+        return static_cast<std::uint32_t>(std::stoul(text));
+    throw Error("{} has no class '{}'; give a name or a number from 0{}", where, text,
+                classes.empty() ? ""
+                                : fmt::format(" to {} ('{}' .. '{}')", classes.size() - 1, classes.front(),
+                                              classes.back()));
+}
+
+/// Those of `candidates` that --class lets pass; all without it.
+std::vector<Candidate> of_class(std::vector<Candidate> candidates, const Wanted& wanted,
+                                const std::vector<std::string>& classes, const std::string& where) {
+    if (wanted.label.empty()) return candidates;
+    const auto label = class_called(wanted.label, classes, where);
+    std::erase_if(candidates, [&](const Candidate& c) { return c.label != label; });
+    if (candidates.empty()) throw Error("{} has no motion of class '{}' to draw", where, wanted.label);
+    return candidates;
+}
+
+std::string title_of(const std::string& name, const std::optional<std::uint32_t>& label,
+                     const std::vector<std::string>& classes) {
+    return label && *label < classes.size() ? fmt::format("{} · {}", classes[*label], name) : name;
+}
+
+std::vector<std::size_t> picks_of(const ingest::Dataset& dataset, const Wanted& wanted, std::size_t count) {
+    const auto where = dataset.folder().string();
+    std::vector<Candidate> candidates;
+    for (const auto i : dataset.split(wanted.split)) candidates.push_back({i, dataset.clips()[i].label});
+    if (candidates.empty())
+        throw Error("{}: split '{}' is empty, so there is nothing to draw", where, wanted.split);
+    return chosen(of_class(std::move(candidates), wanted, dataset.header().classes, where), wanted, count);
+}
+
+Figure figure_of_clip(const ingest::Dataset& dataset, std::size_t clip) {
+    const auto& header = dataset.header();
+    const auto& entry = dataset.clips()[clip];
+    auto figure = figure_of(dataset.motion(clip), header.topology, dataset.bone_length(clip), header.fps,
+                            title_of(entry.name, entry.label, header.classes));
+    figure.label = entry.label;
+    return figure;
+}
+
+std::vector<Figure> figures_by_name(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
+                                    const std::vector<std::string>& names) {
+    std::vector<Figure> figures;
+    for (const auto& name : names) {
+        const auto before = figures.size();
+        for (const auto& dataset : datasets)
+            if (const auto clip = dataset.find(name)) figures.push_back(figure_of_clip(dataset, *clip));
+        if (figures.size() == before)
+            throw Error("{} has no clip '{}'; its clips are called as in '{}'", path.string(), name,
+                        datasets[0].clips().empty() ? "" : datasets[0].clips()[0].name);
+    }
+    return figures;
+}
+
+std::vector<Figure> figures_of_datasets(const fs::path& path, const Wanted& wanted) {
+    const auto folders = ingest::datasets_at(path);
+    std::vector<ingest::Dataset> datasets(folders.begin(), folders.end());
+    if (!wanted.clips.empty()) return figures_by_name(datasets, path, wanted.clips);
+
+    // A class by name may be in one of the datasets of a folder only, as handshaking is in ntu-2p.
+    const auto named = [&](const ingest::Dataset& d) {
+        return std::ranges::count(d.header().classes, wanted.label) > 0;
+    };
+    if (std::ranges::any_of(datasets, named)) std::erase_if(datasets, std::not_fn(named));
+
+    std::vector<Figure> figures;
+    for (std::size_t d = 0; d < datasets.size(); ++d) {
+        const auto count = wanted.count * (d + 1) / datasets.size() - wanted.count * d / datasets.size();
+        if (count == 0) continue;
+        for (const auto clip : picks_of(datasets[d], wanted, count))
+            figures.push_back(figure_of_clip(datasets[d], clip));
+    }
+    return figures;
+}
+
+/// What a motions file is drawn with, and the dataset that told it, if one did.
+struct Drawn {
+    std::optional<ingest::Dataset> dataset;
+    ingest::Subjects subjects;
+
+    /// (persons, K) metres; persons beyond those known are as long as the first.
+    std::vector<float> lengths(std::uint32_t persons) const {
+        const auto k = static_cast<std::ptrdiff_t>(subjects.topology.joints());
+        std::vector<float> all;
+        for (std::uint32_t p = 0; p < persons; ++p) {
+            const auto from = subjects.bone_length.begin() + (p < subjects.persons ? p * k : 0);
+            all.insert(all.end(), from, from + k);
+        }
+        return all;
+    }
+};
+
+/// From --bones where it is given, else from the file itself, else NTU's skeleton with usual lengths.
+Drawn body_for(const ingest::MotionsFile& file, const fs::path& path, const Wanted& wanted) {
+    const auto joints = file.read(file.names()[0]).joints;
+    Drawn drawn;
+    std::string source = path.string();
+    if (!wanted.bones.empty()) {
+        source = wanted.bones.string();
+        drawn.dataset.emplace(wanted.bones);
+        drawn.subjects = ingest::subjects_of(*drawn.dataset);
+    } else if (file.subjects()) {
+        drawn.subjects = *file.subjects();
+    } else if (joints == ingest::ntu25().joints()) {
+        drawn.subjects.topology = ingest::ntu25();
+        drawn.subjects.bone_length = usual_bone_lengths(drawn.subjects.topology);
+    } else {
+        throw Error(
+            "{} does not say how its {} joints hang together; give --bones DATASET with the same skeleton",
+            path.string(), joints);
+    }
+    if (drawn.subjects.topology.joints() != joints)
+        throw Error("{} has motions of {} joints, and {} says {}; give the --bones it was trained on",
+                    path.string(), joints, source, drawn.subjects.topology.joints());
+    return drawn;
+}
+
+/// The class of a motion in the public layout: the clip's own in --bones, else what follows A in its name,
+/// counted from 1.
+std::optional<std::uint32_t> label_of(const std::string& name, const Drawn& drawn) {
+    if (drawn.dataset)
+        if (const auto clip = drawn.dataset->find(name)) return drawn.dataset->clips()[*clip].label;
+    const auto at = name.rfind('A');
+    if (at == std::string::npos) return {};
+    const auto digits = name.substr(at + 1, name.find_first_not_of("0123456789", at + 1) - at - 1);
+    if (digits.empty() || digits.size() > 6 || std::stoul(digits) == 0) return {};
+    return static_cast<std::uint32_t>(std::stoul(digits) - 1);
+}
+
+std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wanted) {
+    if (wanted.split != "all")
+        throw Error("{} is a motions file and has no splits; leave --split out", path.string());
+    const ingest::MotionsFile file(path);
+    const auto& names = file.names();
+    if (names.empty()) throw Error("{} has no motions in it", path.string());
+    const auto drawn = body_for(file, path, wanted);
+    const auto& subjects = drawn.subjects;
+
+    std::vector<std::size_t> picks;
+    for (const auto& name : wanted.clips) {
+        const auto found = std::ranges::find(names, name);
+        if (found == names.end())
+            throw Error("{} has no motion '{}'; its motions are called as in '{}'", path.string(), name,
+                        names[0]);
+        picks.push_back(static_cast<std::size_t>(found - names.begin()));
+    }
+    if (wanted.clips.empty()) {
+        std::vector<Candidate> candidates;
+        for (std::size_t i = 0; i < names.size(); ++i) candidates.push_back({i, label_of(names[i], drawn)});
+        picks = chosen(of_class(std::move(candidates), wanted, subjects.classes, path.string()), wanted,
+                       wanted.count);
+    }
+    std::vector<Figure> figures;
+    for (const auto i : picks) {
+        const auto motion = file.read(names[i]);
+        const auto label = label_of(names[i], drawn);
+        figures.push_back(figure_of(motion, subjects.topology, drawn.lengths(motion.persons), subjects.fps,
+                                    title_of(names[i], label, subjects.classes)));
+        figures.back().label = label;
+    }
+    return figures;
+}
+
+/// A raw capture is drawn as it was recorded: bodies appear and vanish, and nothing is smoothed.
+Figure figure_of_raw(const fs::path& path) {
+    std::vector<char> text;
+    const auto read = ingest::read_skeleton(read_text(path, text, std::uint64_t{1} << 27));
+    if (const auto* why = std::get_if<ingest::Rejection>(&read))
+        throw Error("{}: {}", path.string(), why->reason);
+    return figure_of(std::get<ingest::SkeletonFile>(read), path.stem().string() + ", raw");
+}
+
+}  // namespace
+
+std::vector<Figure> gather(const fs::path& path, const Wanted& wanted) {
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) throw Error("{}: no such file or folder", path.string());
+    if (fs::is_directory(path, ignored)) return figures_of_datasets(path, wanted);
+    if (path.extension() == ".skeleton") return {figure_of_raw(path)};
+    return figures_of_motions(path, wanted);
+}
+
+}  // namespace actformer::reports

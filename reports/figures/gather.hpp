@@ -1,0 +1,25 @@
+// Which motions to draw: from a dataset, a motions file in the public layout, or a raw NTU capture.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/figures/figure.hpp"
+
+namespace actformer::reports {
+
+struct Wanted {
+    std::vector<std::string> clips;  ///< by name; empty: picked over the classes
+    std::string split = "all";       ///< of datasets
+    std::string label;               ///< a class's name or its number from 0; empty: any
+    std::size_t count = 6;           ///< motions to pick
+    std::size_t per_class = 0;       ///< of every class, in its place; 0 picks `count` in all
+    std::filesystem::path
+        bones;  ///< dataset whose skeleton and mean limb lengths a motions file is drawn with; empty: its own
+};
+
+/// The motions wanted of what lies at `path`. Throws Error naming `path` and what it lacks.
+std::vector<Figure> gather(const std::filesystem::path& path, const Wanted& wanted);
+
+}  // namespace actformer::reports

@@ -1,0 +1,150 @@
+#include "reports/page/exports.hpp"
+
+#include <fmt/format.h>
+
+#include "base/text/printable.hpp"
+
+namespace actformer::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json figures_json(const Figures& figures) {
+    Json out{{"mean", nullptr},
+             {"ci95", nullptr},
+             {"repeats", figures.repeats},
+             {"best", figures.best},
+             {"paper", nullptr}};
+    if (figures.measured) {
+        out["mean"] = figures.measured->mean;
+        if (figures.measured->half_width) out["ci95"] = *figures.measured->half_width;
+    }
+    if (figures.paper) out["paper"] = *figures.paper;
+    return out;
+}
+
+Json group_json(const CellGroup& group, const PaperColumns& columns) {
+    Json out{{"dataset", columns.dataset}, {"state", in_words(group.state)}};
+    out["provenance"] = provenance(group);
+    for (std::size_t m = 0; m < columns.metrics.size(); ++m)
+        out["metrics"][columns.metrics[m]] = figures_json(group.figures[m]);
+    return out;
+}
+
+std::string csv_text(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+/// mean,ci95,repeats,paper; what there is not is empty.
+std::string csv_figures(const Figures& figures) {
+    std::string mean, half, paper;
+    if (figures.measured) mean = fmt::format("{}", figures.measured->mean);
+    if (figures.measured && figures.measured->half_width)
+        half = fmt::format("{}", *figures.measured->half_width);
+    if (figures.paper) paper = fmt::format("{}", *figures.paper);
+    return fmt::format("{},{},{},{}", mean, half, figures.repeats, paper);
+}
+
+std::string latex_text(const std::string& text) {
+    std::string out;
+    for (const char c : printable(text)) {
+        if (std::string_view("&%$#_{}").find(c) != std::string_view::npos)
+            out += std::string("\\") + c;
+        else if (c == '\\')
+            out += "\\textbackslash{}";
+        else if (c == '~' || c == '^')
+            out += fmt::format("\\{}{{}}", c);
+        else
+            out += c;
+    }
+    return out;
+}
+
+/// "FIDa_m" -> "FIDa$_m$"
+std::string latex_heading(const std::string& metric) {
+    auto text = heading_of(metric);
+    const auto low = text.find('_');
+    const auto arrow = smaller_is_better(metric) ? " $\\downarrow$" : " $\\uparrow$";
+    if (low == std::string::npos) return latex_text(text) + arrow;
+    return latex_text(text.substr(0, low)) + "$_{" + text.substr(low + 1) + "}$" + arrow;
+}
+
+std::string latex_cell(const CellGroup& group, const Figures& figures) {
+    if (group.state != CellState::measured || !figures.measured) return "--";
+    auto out = figure_text(figures.measured->mean);
+    if (figures.best) out = "\\textbf{" + out + "}";
+    if (figures.measured->half_width)
+        out += "{\\scriptsize\\,$\\pm$" + figure_text(*figures.measured->half_width) + "}";
+    return out;
+}
+
+std::string latex_table(const FilledTable& table) {
+    std::string kinds = "l", groups, rules, metrics;
+    std::size_t column = 2;
+    for (const auto& one : table.paper->columns) {
+        kinds += std::string(one.metrics.size(), 'r');
+        groups +=
+            fmt::format(" & \\multicolumn{{{}}}{{c}}{{{}}}", one.metrics.size(), latex_text(one.dataset));
+        rules += fmt::format("\\cmidrule(lr){{{}-{}}} ", column, column + one.metrics.size() - 1);
+        column += one.metrics.size();
+        for (const auto& metric : one.metrics) metrics += " & " + latex_heading(metric);
+    }
+    auto out = fmt::format(
+        "\\begin{{table}}\n\\centering\n\\begin{{tabular}}{{{}}}\n\\toprule\n{} \\\\\n{}\n{} "
+        "\\\\\n\\midrule\n",
+        kinds, groups, rules, metrics);
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+        out += latex_text(table.paper->rows[r].name);
+        for (const auto& group : table.rows[r])
+            for (const auto& figures : group.figures) out += " & " + latex_cell(group, figures);
+        out += " \\\\\n";
+    }
+    return out +
+           fmt::format("\\bottomrule\n\\end{{tabular}}\n\\caption{{{}}}\n\\label{{tab:{}}}\n\\end{{table}}\n",
+                       latex_text(table.paper->title), table.paper->id);
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const std::vector<FilledTable>& tables,
+                               const std::vector<std::string>& notices) {
+    Json out{{"tables", Json::array()}, {"notices", notices}};
+    for (const auto& table : tables) {
+        Json rows = Json::array();
+        for (std::size_t r = 0; r < table.rows.size(); ++r) {
+            Json groups = Json::array();
+            for (std::size_t c = 0; c < table.rows[r].size(); ++c)
+                groups.push_back(group_json(table.rows[r][c], table.paper->columns[c]));
+            rows.push_back({{"name", table.paper->rows[r].name}, {"groups", groups}});
+        }
+        out["tables"].push_back({{"id", table.paper->id}, {"title", table.paper->title}, {"rows", rows}});
+    }
+    return out;
+}
+
+std::string to_csv(const std::vector<FilledTable>& tables) {
+    std::string out = "table,row,dataset,metric,state,mean,ci95,repeats,paper\n";
+    for (const auto& table : tables)
+        for (std::size_t r = 0; r < table.rows.size(); ++r)
+            for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
+                const auto& group = table.rows[r][c];
+                const auto& columns = table.paper->columns[c];
+                for (std::size_t m = 0; m < columns.metrics.size(); ++m)
+                    out +=
+                        fmt::format("{},{},{},{},{},{}\n", table.paper->id,
+                                    csv_text(table.paper->rows[r].name), columns.dataset, columns.metrics[m],
+                                    in_words(group.state), csv_figures(group.figures[m]));
+            }
+    return out;
+}
+
+std::string to_latex(const std::vector<FilledTable>& tables) {
+    std::string out = "% Written by `actformer report`; needs the package booktabs.\n";
+    for (const auto& table : tables) out += "\n" + latex_table(table);
+    return out;
+}
+
+}  // namespace actformer::reports

@@ -1,0 +1,161 @@
+#include "reports/page/html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/text/printable.hpp"
+
+namespace actformer::reports {
+namespace {
+
+bool is_measured(const std::vector<std::vector<CellGroup>>& rows, std::size_t column) {
+    return std::ranges::any_of(rows, [&](const auto& row) { return row[column].row != nullptr; });
+}
+
+/// "Table 3"
+std::string called(const PaperTable& paper) {
+    return "Table " + paper.id.substr(std::string_view("table").size());
+}
+
+/// A line a dataset column: on which data it was measured, or that nothing was.
+std::string data_lines(const FilledTable& table) {
+    std::string out, none;
+    for (std::size_t c = 0; c < table.paper->columns.size(); ++c) {
+        const auto& name = table.paper->columns[c].dataset;
+        if (!is_measured(table.rows, c)) {
+            none += (none.empty() ? "" : ", ") + name;
+            continue;
+        }
+        std::set<std::string> data;
+        for (const auto& row : table.rows)
+            if (row[c].row) data.insert(fmt::format("{} (split {})", row[c].row->data, row[c].row->split));
+        out += fmt::format("<p class=\"data\"><b>{}</b>, measured on {}</p>\n", escaped(name),
+                           escaped(fmt::format("{}", fmt::join(data, "; "))));
+    }
+    if (!none.empty()) out += fmt::format("<p class=\"data\">Nothing was run for {}.</p>\n", escaped(none));
+    return out;
+}
+
+std::string head(const PaperTable& paper) {
+    std::string groups, metrics;
+    for (const auto& column : paper.columns) {
+        groups += fmt::format("<th class=\"group first\" scope=\"colgroup\" colspan=\"{}\">{}</th>",
+                              column.metrics.size(), escaped(column.dataset));
+        for (std::size_t m = 0; m < column.metrics.size(); ++m) {
+            const bool smaller = smaller_is_better(column.metrics[m]);
+            metrics += fmt::format(
+                "<th scope=\"col\"{}>{} <span class=\"arrow\" title=\"{} is better\">{}</span></th>",
+                m == 0 ? " class=\"first\"" : "", heading_of(column.metrics[m]), smaller ? "lower" : "higher",
+                smaller ? "↓" : "↑");
+        }
+    }
+    return fmt::format("<thead><tr><th rowspan=\"2\"></th>{}</tr>\n<tr>{}</tr></thead>\n", groups, metrics);
+}
+
+std::string tip(const CellGroup& group) {
+    const auto lines = provenance(group);
+    if (lines.empty()) return "";
+    std::string text = "<b>" + escaped(group.row->name) + "</b>";
+    for (const auto& line : lines) text += "<br>" + escaped(line);
+    return "<span class=\"tip\" role=\"tooltip\">" + text + "</span>";
+}
+
+std::string value(const CellGroup& group, const Figures& figures) {
+    if (group.state != CellState::measured) return in_words(group.state);
+    if (!figures.measured) return "not measured";
+    auto out = "<span class=\"value\">" + figure_text(figures.measured->mean) + "</span>";
+    if (figures.measured->half_width)
+        out += "<span class=\"ci\">± " + figure_text(*figures.measured->half_width) + "</span>";
+    return out;
+}
+
+std::string cell(const CellGroup& group, std::size_t metric) {
+    const auto& figures = group.figures[metric];
+    static constexpr const char* states[] = {"not-run", "waiting", "failed", "measured"};
+    std::string classes = states[static_cast<std::size_t>(group.state)];
+    if (group.state == CellState::measured && !figures.measured) classes = "waiting";
+    if (metric == 0) classes = "first " + classes;
+    if (figures.best) classes += " best";
+    auto out = fmt::format("<td class=\"{}\"{}>{}", classes, group.row ? " tabindex=\"0\"" : "",
+                           value(group, figures));
+    if (figures.paper)
+        out += fmt::format("<span class=\"paper{}\" title=\"the paper's figure\">{:.2f}</span>",
+                           figures.paper_best ? " best" : "", *figures.paper);
+    return out + tip(group) + "</td>";
+}
+
+std::string body(const FilledTable& table) {
+    std::string out = "<tbody>\n";
+    for (std::size_t r = 0; r < table.rows.size(); ++r) {
+        out += "<tr><th scope=\"row\">" + escaped(table.paper->rows[r].name) + "</th>";
+        for (const auto& group : table.rows[r])
+            for (std::size_t m = 0; m < group.figures.size(); ++m) out += cell(group, m);
+        out += "</tr>\n";
+    }
+    return out + "</tbody>\n";
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : printable(text)) switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            case '\'':
+                out += "&#39;";
+                break;
+            default:
+                out += c;
+        }
+    return out;
+}
+
+std::string html_note(const std::vector<FilledTable>& tables, const std::vector<std::string>& notices) {
+    std::string out;
+    std::set<std::string> data;
+    bool synthetic = false;
+    for (const auto& table : tables)
+        for (const auto& row : table.rows)
+            for (const auto& group : row)
+                if (group.row) {
+                    data.insert(group.row->data);
+                    synthetic = synthetic || group.row->data.find("synthetic") != std::string::npos;
+                }
+    out += "<div class=\"note\">\n<p>Every large figure below was measured by actformer";
+    if (!data.empty()) out += " on " + escaped(fmt::format("{}", fmt::join(data, "; ")));
+    out += ". The small figures are those that the ActFormer paper prints, for comparison only.</p>\n";
+    if (synthetic)
+        out +=
+            "<p>Synthetic people are not NTU RGB+D: such figures show that the whole chain works, and how "
+            "the methods "
+            "compare on made-up motion. They cannot be held against the paper's.</p>\n";
+    for (const auto& notice : notices) out += "<p class=\"notice\">" + escaped(notice) + "</p>\n";
+    return out + "</div>\n";
+}
+
+std::string html_tables(const std::vector<FilledTable>& tables) {
+    std::string out;
+    for (const auto& table : tables)
+        out += fmt::format(
+            "<section class=\"table\" id=\"{}\">\n<h2>{} <small>{}</small></h2>\n{}<div "
+            "class=\"scroll\"><table>\n{}{}"
+            "</table></div>\n</section>\n",
+            table.paper->id, called(*table.paper), escaped(table.paper->title), data_lines(table),
+            head(*table.paper), body(table));
+    return out;
+}
+
+}  // namespace actformer::reports

@@ -1,0 +1,52 @@
+// The paper's tables with what was measured in their cells.
+#pragma once
+
+#include <optional>
+
+#include "eval/metrics/interval.hpp"
+#include "reports/page/measured.hpp"
+#include "reports/tables/paper_tables.hpp"
+
+namespace actformer::reports {
+
+/// One metric. Accuracies in per cent.
+struct Figures {
+    std::optional<eval::Interval> measured;  ///< over all repeats of all done runs of the row
+    std::size_t repeats = 0;
+    std::optional<double> paper;
+    bool best = false, paper_best = false;  ///< of the table's column
+};
+
+enum class CellState { not_run, waiting, failed, measured };
+
+/// "not run", "not finished", "failed", "measured"
+const char* in_words(CellState state);
+
+/// What one row of a table has on one dataset.
+struct CellGroup {
+    CellState state = CellState::not_run;
+    const MeasuredRow* row = nullptr;  ///< null where nothing fills the cells
+    std::vector<Figures> figures;      ///< as PaperColumns::metrics
+};
+
+struct FilledTable {
+    const PaperTable* paper = nullptr;
+    std::vector<std::vector<CellGroup>> rows;  ///< (paper rows, datasets)
+};
+
+/// Of all tables, whether anything fills them or not. Points into `measured`, whose notices get a line for every cell that is not
+/// one, or that two rows fill: the one read last counts.
+std::vector<FilledTable> fill_tables(Measured& measured);
+
+/// "Acc.", "FIDm"
+std::string heading_of(const std::string& metric);
+
+bool smaller_is_better(const std::string& metric);
+
+/// Two digits after the point, as the paper has them, more where the number is below 0.1.
+std::string figure_text(double value);
+
+/// Where a group's figures come from, a line each: sweep, row and seeds, settings, data and its fingerprint, recogniser, version.
+std::vector<std::string> provenance(const CellGroup& group);
+
+}  // namespace actformer::reports

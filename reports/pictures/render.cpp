@@ -1,0 +1,53 @@
+#include "reports/pictures/render.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "base/error.hpp"
+#include "base/files/aside.hpp"
+#include "reports/pictures/gif.hpp"
+#include "reports/pictures/video.hpp"
+
+namespace actformer::reports {
+
+PictureKind picture_kind(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (auto& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (extension == ".png") return PictureKind::png;
+    if (extension == ".gif") return PictureKind::gif;
+    if (extension == ".mp4") return PictureKind::mp4;
+    throw Error(
+        "cannot tell what to draw from '{}': give a name that ends in .png (contact sheet), .gif or .mp4",
+        path.string());
+}
+
+void write_png(const std::filesystem::path& path, const cv::Mat& picture) {
+    Aside file(path);
+    std::vector<std::uint8_t> bytes;
+    if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9}))
+        throw Error("cannot write {}: OpenCV was built without PNG; install libopencv-dev", path.string());
+    std::ofstream out(file.partial(), std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out) throw Error("cannot write all of {}; is the disk full?", path.string());
+    file.commit();
+}
+
+void render(const std::vector<Figure>& figures, const Layout& layout, const std::filesystem::path& path,
+            const Watcher& watch) {
+    switch (picture_kind(path)) {
+        case PictureKind::png:
+            write_png(path, contact_sheet(figures, layout));
+            break;
+        case PictureKind::gif:
+            write_gif(path, animation(figures, layout), watch);
+            break;
+        case PictureKind::mp4:
+            write_mp4(path, animation(figures, layout), watch);
+            break;
+    }
+}
+
+}  // namespace actformer::reports

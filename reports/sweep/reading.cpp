@@ -1,0 +1,31 @@
+#include "reports/sweep/reading.hpp"
+
+#include <fstream>
+
+namespace actformer::reports {
+
+using Json = nlohmann::ordered_json;
+
+nlohmann::ordered_json read_json(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return Json::parse(file, nullptr, false);
+}
+
+const nlohmann::ordered_json& member(const Json& object, const char* key) {
+    static const Json none;
+    const auto found = object.is_object() ? object.find(key) : object.end();
+    return object.is_object() && found != object.end() ? *found : none;
+}
+
+const nlohmann::ordered_json& list(const Json& object, const char* key) {
+    static const Json none = Json::array();
+    const auto& found = member(object, key);
+    return found.is_array() ? found : none;
+}
+
+std::string text(const Json& object, const char* key) {
+    const auto& found = member(object, key);
+    return found.is_string() ? found.get<std::string>() : "";
+}
+
+}  // namespace actformer::reports

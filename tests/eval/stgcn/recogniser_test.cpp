@@ -1,0 +1,104 @@
+// The network on the device against a plain forward pass in double.
+#include "eval/stgcn/recogniser.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/plain_recogniser.hpp"
+
+using namespace actformer;
+
+namespace {
+
+std::vector<float> made_motions(std::size_t count, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    std::vector<float> out(count);
+    for (auto& v : out) v = normal(random);
+    return out;
+}
+
+/// The largest difference, relative to the largest number there is.
+double relative_error(const float* values, const std::vector<double>& truth) {
+    double worst = 0, scale = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        worst = std::max(worst, std::abs(values[i] - truth[i]));
+        scale = std::max(scale, std::abs(truth[i]));
+    }
+    return worst / scale;
+}
+
+struct Case {
+    std::uint32_t persons, frames, sequences;
+    bool ntu;
+    double width;
+};
+
+void expect_right(const Case& c, const kernels::Tiles& tiles, kernels::Device& device) {
+    const auto weights = c.ntu ? eval::random_weights(c.persons * 3, 7, eval::ntu_edges, 20, c.width, 1)
+                               : eval::random_weights(c.persons * 3, 11, test::small_tree, 0, c.width, 2);
+    eval::Recogniser recogniser(device, weights, tiles);
+    const std::size_t numbers = std::size_t{weights.channels} * c.frames * weights.joints();
+    const auto motions = made_motions(c.sequences * numbers, c.frames);
+    const auto got = recogniser.recognise(motions, c.sequences, c.frames);
+    ASSERT_EQ(got.features.size(), std::size_t{c.sequences} * weights.features());
+    ASSERT_EQ(got.logits.size(), std::size_t{c.sequences} * weights.classes);
+    const test::PlainRecogniser plain(weights);
+    for (std::size_t n = 0; n < c.sequences; n += std::max(1U, c.sequences - 1)) {
+        const auto truth = plain(&motions[n * numbers], c.frames);
+        EXPECT_LT(relative_error(&got.features[n * weights.features()], truth.features), 2e-5)
+            << "frames " << c.frames;
+        EXPECT_LT(relative_error(&got.logits[n * weights.classes], truth.logits), 2e-5)
+            << "frames " << c.frames;
+    }
+}
+
+}  // namespace
+
+TEST(Recogniser, AgreesWithThePlainForwardPass) {
+    kernels::Device device;
+    const auto tiles = kernels::default_tiles(device.info());
+    for (const auto& c :
+         {Case{1, 64, 3, true, 0.25}, Case{2, 60, 2, true, 0.125}, Case{1, 61, 2, false, 0.125},
+          Case{2, 17, 5, false, 0.25}, Case{1, 1, 2, true, 0.125}, Case{3, 2, 1, true, 0.2},
+          Case{1, 18, 9, true, 0.125}, Case{1, 19, 17, false, 0.125}})
+        expect_right(c, tiles, device);
+}
+
+TEST(Recogniser, AgreesAtFullWidth) {
+    kernels::Device device;
+    expect_right({1, 40, 1, true, 1}, kernels::default_tiles(device.info()), device);
+}
+
+TEST(Recogniser, AgreesWithEveryShapeOfTiles) {
+    kernels::Device device;
+    for (const auto& tiles :
+         {kernels::Tiles{1, 1, 1, 1, 1, false, 1}, kernels::Tiles{2, 3, 1, 2, 8, true, 2},
+          kernels::Tiles{4, 8, 1, 1, 64, true, 64}, kernels::Tiles{8, 6, 2, 5, 4, false, 3},
+          kernels::Tiles{16, 5, 4, 8, 1, false, 4}})
+        expect_right({1, 23, 5, true, 0.125}, tiles, device);
+}
+
+TEST(Recogniser, GivesAMotionTheSameNumbersInAnyBatch) {
+    kernels::Device device;
+    const auto weights = eval::random_weights(3, 5, eval::ntu_edges, 20, 0.25, 3);
+    eval::Recogniser recogniser(device, weights, kernels::default_tiles(device.info()));
+    const auto motions = made_motions(21 * 3 * 20 * 25, 4);
+    const auto together = recogniser.recognise(motions, 21, 20);
+    for (const std::size_t n : {0U, 7U, 20U}) {
+        recogniser.recognise(made_motions(4 * 3 * 33 * 25, 5), 4, 33);  // another length in between
+        const auto alone = recogniser.recognise(std::span(motions).subspan(n * 1500, 1500), 1, 20);
+        for (std::size_t i = 0; i < weights.features(); ++i)
+            ASSERT_EQ(alone.features[i], together.features[n * weights.features() + i]);
+    }
+}
+
+TEST(Recogniser, RefusesMotionsOfAnotherSize) {
+    kernels::Device device;
+    const auto weights = eval::random_weights(3, 5, eval::ntu_edges, 20, 0.125, 3);
+    eval::Recogniser recogniser(device, weights, kernels::default_tiles(device.info()));
+    EXPECT_THROW(recogniser.recognise(made_motions(100, 1), 1, 20), Error);
+    EXPECT_THROW(recogniser.recognise(std::span<const float>(), 1, 0), Error);
+    EXPECT_TRUE(recogniser.recognise(std::span<const float>(), 0, 20).features.empty());
+}

@@ -1,0 +1,35 @@
+#include "eval/stgcn/tuning.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer;
+
+TEST(Tuning, KeepsTilesOfEveryDevice) {
+    const test::TempDir cache;
+    ::setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+    kernels::DeviceInfo one, other;
+    one.type = other.type = "CPU";
+    one.name = "one";
+    other.name = "other";
+    EXPECT_EQ(eval::load_tiles(one), default_tiles(one)) << "nothing kept yet";
+    auto tiles = default_tiles(one);
+    tiles.rows = 7;
+    tiles.sequences = 3;
+    eval::save_tiles(one, tiles);
+    tiles.columns_first = true;
+    eval::save_tiles(other, tiles);
+    EXPECT_EQ(eval::load_tiles(other), tiles);
+    tiles.columns_first = false;
+    EXPECT_EQ(eval::load_tiles(one), tiles);
+    one.driver = "newer";
+    EXPECT_EQ(eval::load_tiles(one), default_tiles(one)) << "another driver is another device";
+
+    test::write_file(eval::tiles_file(), "{ damaged");
+    EXPECT_EQ(eval::load_tiles(other), default_tiles(other));
+    test::write_file(eval::tiles_file(), R"({"other |  | ": {"vec": 3, "rows": -1}})");
+    EXPECT_EQ(eval::load_tiles(other), default_tiles(other));
+    ::unsetenv("XDG_CACHE_HOME");
+}

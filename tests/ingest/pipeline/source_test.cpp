@@ -1,0 +1,137 @@
+#include "ingest/pipeline/source.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer::ingest;
+using namespace actformer::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// stem -> text of every file of a source.
+std::vector<std::pair<std::string, std::string>> contents(const std::vector<fs::path>& raw) {
+    Source source(raw, ".skeleton");
+    std::vector<std::pair<std::string, std::string>> out;
+    std::vector<char> scratch;
+    RawFile file;
+    while (source.next(file)) {
+        const auto text = file.text(scratch);
+        for (std::size_t i = 0; i < 64; ++i) EXPECT_EQ(text.data()[text.size() + i], '\0') << "padding";
+        out.emplace_back(file.stem, text);
+    }
+    EXPECT_EQ(source.bytes_read(), source.bytes_total());
+    return out;
+}
+
+std::string message(const std::vector<fs::path>& raw) {
+    try {
+        contents(raw);
+        return "no error";
+    } catch (const actformer::Error& e) {
+        return e.what();
+    }
+}
+
+struct Files : testing::Test {
+    void SetUp() override {
+        write_file(dir / "raw/b/two.skeleton", "second");
+        write_file(dir / "raw/a/one.SKELETON", "first");
+        write_file(dir / "raw/a/notes.txt", "not one of ours");
+        write_file(dir / "raw/a/._one.skeleton", "an archiver's companion");
+        write_file(dir / "raw/c/empty.skeleton", "");
+    }
+    const std::vector<std::pair<std::string, std::string>> expected{
+        {"one", "first"}, {"two", "second"}, {"empty", ""}};
+    TempDir dir;
+};
+
+}  // namespace
+
+TEST_F(Files, ComeOutOfNestedFoldersInOrder) {
+    EXPECT_EQ(contents({dir / "raw"}), expected);
+}
+
+TEST_F(Files, ComeOutOfArchives) {
+    const std::map<std::string, std::string> commands{
+        {"x.zip", "cd raw && zip -qr ../x.zip a/one.SKELETON a/notes.txt a/._one.skeleton b c"},
+        {"x.tar", "cd raw && tar cf ../x.tar a b c"},
+        {"x.tar.gz", "cd raw && tar czf ../x.tar.gz a b c"},
+        {"x.tar.xz", "cd raw && tar cJf ../x.tar.xz a b c"}};
+    for (const auto& [name, command] : commands) {
+        if (run_command("cd " + dir.path().string() + " && " + command).exit != 0)
+            GTEST_SKIP() << "cannot run: " << command;
+        auto found = contents({dir / name});
+        std::sort(found.begin(), found.end());
+        auto sorted = expected;
+        std::sort(sorted.begin(), sorted.end());
+        EXPECT_EQ(found, sorted) << name;
+    }
+}
+
+TEST_F(Files, ComeInTheOrderOfThePaths) {
+    const auto found = contents({dir / "raw/b", dir / "raw/a/one.SKELETON"});
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].first, "two");
+    EXPECT_EQ(found[1].first, "one");
+}
+
+TEST_F(Files, NamesAreListedWithoutTheirBytes) {
+    run_command("cd " + dir.path().string() + " && tar czf x.tar.gz raw");
+    Source source({dir / "x.tar.gz"}, ".skeleton");
+    RawFile file;
+    int n = 0;
+    while (source.next_name(file)) ++n;
+    EXPECT_EQ(n, 3);
+}
+
+TEST_F(Files, ThatAreNotThereAreNamed) {
+    EXPECT_NE(message({dir / "absent"}).find("absent: no such file or folder"), std::string::npos);
+    EXPECT_NE(message({dir / "raw/a/notes.txt"}).find("notes.txt: neither a folder nor an archive"),
+              std::string::npos);
+    fs::create_directories(dir / "nothing");
+    EXPECT_NE(message({dir / "nothing"}).find("no .skeleton file there"), std::string::npos);
+}
+
+TEST_F(Files, InABrokenArchiveStopWithItsName) {
+    for (int i = 0; i < 50; ++i) {
+        std::string text;
+        for (unsigned j = 0; j < 3000; ++j) text += std::to_string(i * 7919U + j * j * 104729U);
+        write_file(dir / ("raw/many/" + std::to_string(i) + ".skeleton"), text);
+    }
+    for (const std::string name : {"x.tar.gz", "x.tar.xz", "x.zip"}) {
+        const auto make = name == "x.zip" ? "zip -qr x.zip raw" : "tar caf " + name + " raw";
+        if (run_command("cd " + dir.path().string() + " && " + make).exit != 0)
+            GTEST_SKIP() << "cannot run: " << make;
+        const auto whole = read_file(dir / name);
+        write_file(dir / name, whole.substr(0, whole.size() / 2));
+        const auto what = message({dir / name});
+        EXPECT_NE(what.find(name + ": broken archive"), std::string::npos) << what;
+        EXPECT_NE(what.find("download it again"), std::string::npos) << what;
+    }
+}
+
+TEST_F(Files, ThatCannotBeReadSayWhyWhenTheyAreWanted) {
+    fs::create_symlink(dir / "gone", dir / "raw/dangling.skeleton");
+    Source source({dir / "raw"}, ".skeleton");
+    std::vector<char> scratch;
+    RawFile file;
+    int unreadable = 0;
+    while (source.next(file)) try {
+            static_cast<void>(file.text(scratch));
+        } catch (const actformer::Error& e) {
+            ++unreadable;
+            EXPECT_NE(std::string(e.what()).find("cannot be read: No such file"), std::string::npos);
+        }
+    EXPECT_EQ(unreadable, 1);
+}
+
+TEST_F(Files, ChangeTheListingWhenTheyChange) {
+    const auto before = Source({dir / "raw"}, ".skeleton").listing();
+    EXPECT_EQ(Source({dir / "raw"}, ".skeleton").listing(), before);
+    write_file(dir / "raw/b/two.skeleton", "changed");
+    EXPECT_NE(Source({dir / "raw"}, ".skeleton").listing(), before);
+}

@@ -1,0 +1,400 @@
+// ActFormer's networks: counts, coarsening, both paths against each other and against a computation in NumPy, every switch.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/hdf5/reader.hpp"
+#include "base/hdf5/writer.hpp"
+#include "model/generators/actformer/discriminator.hpp"
+#include "model/generators/actformer/generator.hpp"
+#include "model/generators/actformer/prior.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer;
+using namespace actformer::model;
+using namespace actformer::test;
+namespace hdf5 = hdf5;
+
+namespace {
+
+const std::vector<int> ntu(ingest::ntu25_parents.begin(), ingest::ntu25_parents.end());
+
+/// Eight joints: a trunk, two arms and a leg.
+const std::vector<int> small_tree{-1, 0, 1, 1, 3, 1, 5, 0};
+
+GeneratorSettings tiny_generator(std::uint32_t persons) {
+    GeneratorSettings s;
+    s.parents = small_tree;
+    s.persons = persons;
+    s.classes = 5;
+    s.frames = 20;
+    s.width = 24;
+    s.heads = 4;
+    s.depth = 2;
+    s.prior.channels = 6;
+    s.prior.streams = 1;
+    return s;
+}
+
+DiscriminatorSettings tiny_discriminator(std::uint32_t persons) {
+    DiscriminatorSettings s;
+    s.parents = small_tree;
+    s.persons = persons;
+    s.classes = 5;
+    s.width = 3;
+    return s;
+}
+
+/// A generator and a discriminator for the same motions.
+struct Networks {
+    GeneratorSettings g;
+    DiscriminatorSettings d;
+};
+
+/// Every value of every switch at least once, each with some others.
+std::vector<Networks> switched() {
+    std::vector<Networks> all;
+    const auto add = [&](std::uint32_t persons, const auto& change) {
+        Networks networks{tiny_generator(persons), tiny_discriminator(persons)};
+        change(networks);
+        networks.d.numbers = networks.g.numbers;
+        all.push_back(networks);
+    };
+    add(1, [](Networks&) {});
+    add(1, [](Networks& n) { n.g.positions = Positions::concat; });
+    add(1, [](Networks& n) { n.g.positions = Positions::fixed; });
+    add(1, [](Networks& n) { n.g.prior.kind = PriorKind::gaussian; });
+    add(1, [](Networks& n) { n.g.body = Body::graphconv; });
+    add(1, [](Networks& n) {
+        n.g.numbers = 6;
+        n.g.free_joint = 7;
+    });
+    add(2, [](Networks&) {});
+    add(2, [](Networks& n) {
+        n.g.positions = Positions::concat;
+        n.g.prior.streams = 2;
+        n.d.persons_in = PersonsInD::avgpool;
+    });
+    add(3, [](Networks& n) {
+        n.g.positions = Positions::independent;
+        n.d.persons_in = PersonsInD::maxpool;
+    });
+    add(2, [](Networks& n) {
+        n.g.positions = Positions::fixed;
+        n.d.persons_in = PersonsInD::selfatt;
+    });
+    add(2, [](Networks& n) {
+        n.g.interaction = Interaction::concat;
+        n.g.prior.streams = 2;
+    });
+    add(3, [](Networks& n) {
+        n.g.interaction = Interaction::concat;
+        n.g.body = Body::graphconv;
+    });
+    add(2, [](Networks& n) {
+        n.g.body = Body::graphconv;
+        n.g.numbers = 6;
+        n.g.free_joint = 7;
+    });
+    return all;
+}
+
+at::Tensor random_latent(const GeneratorSettings& s, std::int64_t samples, std::int64_t frames) {
+    return at::randn({samples, s.prior.streams, frames, s.prior.channels});
+}
+
+at::Tensor random_motion(const DiscriminatorSettings& s, std::int64_t samples, std::int64_t frames) {
+    return at::randn({samples, s.persons * s.numbers, frames, s.joints()});
+}
+
+at::Tensor some_labels(std::int64_t samples) {
+    return at::arange(samples, at::kLong).remainder(5);
+}
+
+/// Norms and biases away from where they start, so that every one of them matters.
+void stir(torch::nn::Module& network) {
+    const at::NoGradGuard no_gradients;
+    for (auto& weight : network.parameters())
+        if (weight.dim() == 1) weight.add_(at::randn_like(weight), 0.2);
+}
+
+void expect_near(const at::Tensor& ours, const at::Tensor& theirs, double tolerance) {
+    const auto scale = 1 + theirs.abs().max().item<double>();
+    EXPECT_LE((ours.to(at::kDouble) - theirs.to(at::kDouble)).abs().max().item<double>(), tolerance * scale);
+}
+
+/// The same weights and vectors in both.
+void copy_weights(const torch::nn::Module& from, torch::nn::Module& to) {
+    const at::NoGradGuard no_gradients;
+    for (const auto& item : from.named_parameters()) to.named_parameters()[item.key()].copy_(item.value());
+    for (const auto& item : from.named_buffers()) to.named_buffers()[item.key()].copy_(item.value());
+}
+
+struct ActformerNetworks : testing::Test {
+    ActformerNetworks() { at::manual_seed(11); }
+};
+
+GeneratorSettings paper_generator() {
+    GeneratorSettings s;
+    s.parents = ntu;
+    s.persons = 2;
+    s.classes = 26;
+    s.frames = 64;
+    return s;
+}
+
+DiscriminatorSettings paper_discriminator() {
+    DiscriminatorSettings s;
+    s.parents = ntu;
+    s.persons = 2;
+    s.classes = 26;
+    return s;
+}
+
+}  // namespace
+
+TEST_F(ActformerNetworks, CountTheParametersOfTable6) {
+    EXPECT_EQ(trained_count(generator_weights(paper_generator())), 1'359'675);
+    EXPECT_EQ(trained_count(discriminator_weights(paper_discriminator())), 5'174'593);
+    const auto trained = [](const torch::nn::Module& network) {
+        std::int64_t sum = 0;
+        for (const auto& weight : network.parameters()) sum += weight.numel();
+        return sum;
+    };
+    EXPECT_EQ(trained(Generator(paper_generator(), 0)), 1'359'675);
+    EXPECT_EQ(trained(Discriminator(paper_discriminator(), 0)), 5'174'593);
+    const auto of_lines = [](const std::vector<SummaryLine>& lines) {
+        std::int64_t sum = 0;
+        for (const auto& line : lines) sum += line.parameters;
+        return sum;
+    };
+    for (const auto& networks : switched()) {
+        EXPECT_EQ(of_lines(generator_summary(networks.g, 20)), trained(Generator(networks.g, 0)));
+        EXPECT_EQ(of_lines(discriminator_summary(networks.d, 20)), trained(Discriminator(networks.d, 0)));
+    }
+}
+
+TEST_F(ActformerNetworks, StartAlikeForASeedAndNotForAnother) {
+    const Generator one(tiny_generator(2), 3), same(tiny_generator(2), 3), other(tiny_generator(2), 4);
+    for (const auto& item : one.named_parameters()) {
+        EXPECT_TRUE(item.value().equal(same.named_parameters()[item.key()])) << item.key();
+        if (item.key().ends_with("bias") || item.key().find("norm") != std::string::npos) continue;
+        EXPECT_FALSE(item.value().equal(other.named_parameters()[item.key()])) << item.key();
+    }
+    const auto classes = one.named_parameters()["classes.weight"];
+    expect_near(classes.mm(classes.t()), at::eye(5), 1e-6);  // orthogonal
+}
+
+TEST_F(ActformerNetworks, BothPathsAgreeForwardAndBack) {
+    for (const auto& networks : switched()) {
+        Generator fused(networks.g, 1, at::kDouble), plain(networks.g, 1, at::kDouble);
+        Discriminator judge(networks.d, 2, at::kDouble), plain_judge(networks.d, 2, at::kDouble);
+        stir(fused);
+        stir(judge);
+        copy_weights(fused, plain);
+        copy_weights(judge, plain_judge);
+        plain.set_fused(false);
+        plain_judge.set_fused(false);
+        const auto latent = random_latent(networks.g, 4, 17).to(at::kDouble);
+        const auto labels = some_labels(4);
+        for (int step = 0; step < 2; ++step) {  // the second sees the vectors that the first moved
+            const auto ours = fused.forward(latent, labels), theirs = plain.forward(latent, labels);
+            expect_near(ours, theirs, 1e-9);
+            const auto score = judge.forward(ours, labels), plain_score = plain_judge.forward(theirs, labels);
+            expect_near(score, plain_score, 1e-9);
+            score.square().sum().backward();
+            plain_score.square().sum().backward();
+        }
+        const auto compare = [](const torch::nn::Module& a, const torch::nn::Module& b) {
+            const auto theirs = b.named_parameters();
+            for (const auto& item : a.named_parameters()) {
+                const auto &g = item.value().grad(), &h = theirs[item.key()].grad();
+                ASSERT_TRUE(g.defined() && h.defined()) << item.key();
+                EXPECT_TRUE(at::allclose(g, h, 1e-6, 1e-9 * (1 + h.abs().max().item<double>())))
+                    << item.key();
+            }
+            const auto buffers = b.named_buffers();
+            for (const auto& item : a.named_buffers()) expect_near(item.value(), buffers[item.key()], 1e-9);
+        };
+        compare(fused, plain);
+        compare(judge, plain_judge);
+    }
+}
+
+TEST_F(ActformerNetworks, ThePapersSizeAgreesInFloat) {
+    Generator fused(paper_generator(), 1), plain(paper_generator(), 1);
+    Discriminator judge(paper_discriminator(), 2), plain_judge(paper_discriminator(), 2);
+    plain.set_fused(false);
+    plain_judge.set_fused(false);
+    const auto latent = random_latent(paper_generator(), 3, 60);
+    const auto labels = some_labels(3);
+    // Two libraries' orders of float sums over some thousand products, through four blocks and five convolutions.
+    const auto ours = fused.forward(latent, labels), theirs = plain.forward(latent, labels);
+    expect_near(ours, theirs, 2e-4);
+    expect_near(judge.forward(ours, labels), plain_judge.forward(theirs, labels), 1e-3);
+    const at::NoGradGuard no_gradients;
+    fused.eval();
+    const auto kept = fused.forward(latent, labels);
+    expect_near(kept, fused.forward(latent, labels), 0);
+    at::GradMode::set_enabled(true);
+    expect_near(kept, fused.forward(latent, labels),
+                1e-6);  // in place, and with what is kept for the way back
+}
+
+TEST_F(ActformerNetworks, GeneratedLimbsHaveUnitLength) {
+    auto settings = tiny_generator(2);
+    const at::NoGradGuard no_gradients;
+    const auto limbs = Generator(settings, 1).forward(random_latent(settings, 3, 9), some_labels(3));
+    EXPECT_EQ(limbs.sizes().vec(), (std::vector<std::int64_t>{3, 6, 9, 8}));
+    const auto lengths = limbs.view({3, 2, 3, 9, 8}).norm(2, {2}).slice(3, 1);
+    EXPECT_GT(lengths.min().item<double>(), 0.9);
+    EXPECT_LE(lengths.max().item<double>(), 1 + 1e-6);
+
+    settings.numbers = 6;
+    settings.free_joint = 7;
+    const auto rotations = Generator(settings, 1).forward(random_latent(settings, 3, 9), some_labels(3));
+    const auto six = rotations.view({3, 2, 6, 9, 8}).slice(4, 0, 7);
+    const auto a = six.slice(2, 0, 3), b = six.slice(2, 3, 6);
+    expect_near(a.norm(2, {2}), at::ones({3, 2, 9, 7}), 1e-5);
+    expect_near(b.norm(2, {2}), at::ones({3, 2, 9, 7}), 1e-5);
+    expect_near((a * b).sum(2), at::zeros({3, 2, 9, 7}), 1e-5);
+}
+
+TEST_F(ActformerNetworks, SpectralNormsAreTheSvdsAfterManySteps) {
+    Generator g(tiny_generator(2), 1);
+    Discriminator d(tiny_discriminator(2), 2);
+    const at::NoGradGuard no_gradients;
+    const auto latent = random_latent(g.settings(), 2, 16);
+    // Power iterations take their time where the two largest singular values are near each other.
+    for (int i = 0; i < 400; ++i) d.forward(g.forward(latent, some_labels(2)), some_labels(2));
+    const auto check = [](const WeightStore& store, const std::vector<NetworkWeight>& weights) {
+        int spectral = 0;
+        for (const auto& weight : weights) {
+            if (!weight.spectral) continue;
+            const auto matrix = store.at(weight.name).view({weight.rows, -1});
+            const auto largest = std::get<1>(at::linalg_svd(matrix, false)).max().item<double>();
+            EXPECT_NEAR(store.spectral_norm(weight.name).item<double>(), largest, 1e-4 * largest)
+                << weight.name;
+            const auto normal = store.normalised(weight.name, false).view({weight.rows, -1});
+            EXPECT_NEAR(std::get<1>(at::linalg_svd(normal, false)).max().item<double>(), 1, 1e-4)
+                << weight.name;
+            ++spectral;
+        }
+        return spectral;
+    };
+    EXPECT_EQ(check(g.weights(), generator_weights(g.settings())), 1 + 4 * 4 + 2);
+    EXPECT_EQ(check(d.weights(), discriminator_weights(d.settings())), 5 + 2);
+}
+
+TEST_F(ActformerNetworks, EvaluationMovesNothing) {
+    Generator g(tiny_generator(2), 1);
+    Discriminator d(tiny_discriminator(2), 2);
+    g.eval();
+    d.eval();
+    std::vector<at::Tensor> before;
+    for (const auto* network : {static_cast<torch::nn::Module*>(&g), static_cast<torch::nn::Module*>(&d)})
+        for (const auto& buffer : network->buffers()) before.push_back(buffer.clone());
+    const at::NoGradGuard no_gradients;
+    d.forward(g.forward(random_latent(g.settings(), 2, 16), some_labels(2)), some_labels(2));
+    std::size_t i = 0;
+    for (const auto* network : {static_cast<torch::nn::Module*>(&g), static_cast<torch::nn::Module*>(&d)})
+        for (const auto& buffer : network->buffers()) EXPECT_TRUE(buffer.equal(before[i++]));
+}
+
+TEST_F(ActformerNetworks, RefuseWhatTheyCannotTake) {
+    Generator g(tiny_generator(2), 1);
+    Discriminator d(tiny_discriminator(2), 2);
+    EXPECT_THROW(g.forward(random_latent(g.settings(), 2, 21), some_labels(2)), Error);
+    EXPECT_THROW(g.forward(at::randn({2, 1, 16, 5}), some_labels(2)), Error);
+    EXPECT_THROW(g.forward(random_latent(g.settings(), 2, 16), some_labels(3)), Error);
+    EXPECT_THROW(g.forward(random_latent(g.settings(), 2, 16), at::full({2}, 5, at::kLong)), c10::Error);
+    EXPECT_THROW(d.forward(random_motion(d.settings(), 2, 15), some_labels(2)), Error);
+    EXPECT_THROW(d.forward(at::randn({2, 6, 16, 7}), some_labels(2)), Error);
+    EXPECT_NO_THROW(d.forward(random_motion(d.settings(), 2, 16), some_labels(2)));
+    for (const auto& change : std::vector<std::function<void(GeneratorSettings&)>>{
+             [](auto& s) { s.heads = 5; }, [](auto& s) { s.width = 0; }, [](auto& s) { s.numbers = 4; },
+             [](auto& s) { s.free_joint = 8; }, [](auto& s) { s.parents = {-1}; },
+             [](auto& s) { s.classes = 0; }, [](auto& s) { s.prior.streams = 3; },
+             [](auto& s) { s.prior.length_scale = 0; }}) {
+        auto settings = tiny_generator(2);
+        change(settings);
+        EXPECT_THROW(Generator(settings, 0), Error);
+    }
+}
+
+TEST_F(ActformerNetworks, AgreeWithNumPy) {
+    const std::string oracle = source("tests/model/generators/actformer/oracle.py");
+    if (run_command("/usr/bin/python3 -c 'import h5py, numpy'").exit != 0)
+        GTEST_SKIP() << "no Python with numpy and h5py (Debian: python3-numpy python3-h5py)";
+    TempDir dir;
+    auto cases = switched();
+    cases.push_back({paper_generator(), paper_discriminator()});
+    const char* interactions[] = {"iformer", "concat"};
+    const char* bodies[] = {"transformer", "graphconv"};
+    const char* persons_in[] = {"concat", "avgpool", "maxpool", "selfatt"};
+    for (const auto& [gs, ds] : cases) {
+        Generator g(gs, 7);
+        Discriminator d(ds, 8);
+        stir(g);
+        stir(d);
+        g.eval();
+        d.eval();
+        const at::NoGradGuard no_gradients;
+        const std::int64_t samples = 2, frames = 17;
+        const auto latent = random_latent(gs, samples, frames),
+                   motion = random_motion(ds, samples, frames + 2), labels = some_labels(samples);
+        const bool is_ntu = gs.parents == ntu;
+        const auto levels = skeleton_levels(gs.parents);
+        const nlohmann::json about{
+            {"parents", gs.parents},
+            {"persons", gs.persons},
+            {"numbers", gs.numbers},
+            {"free_joint", gs.free_joint},
+            {"width", gs.width},
+            {"heads", gs.heads},
+            {"depth", gs.depth},
+            {"interaction", interactions[static_cast<int>(gs.interaction)]},
+            {"body", bodies[static_cast<int>(gs.body)]},
+            {"d_persons", persons_in[static_cast<int>(ds.persons_in)]},
+            {"middle",
+             is_ntu ? std::vector<std::uint32_t>{0, 3, 5, 7, 9, 11, 13, 15, 17, 19, 20} : levels.middle_kept},
+            {"coarse", is_ntu ? std::vector<std::uint32_t>{3, 5, 6, 8, 10} : levels.coarse_kept}};
+        {
+            hdf5::Writer file(dir / "case.h5");
+            file.attribute("case", about.dump());
+            const auto write = [&](const std::string& name, const at::Tensor& tensor) {
+                const auto values = tensor.detach().to(at::kFloat).contiguous();
+                const auto sizes = values.sizes();
+                file.write<float>(name, {sizes.begin(), sizes.end()},
+                                  {values.data_ptr<float>(), static_cast<std::size_t>(values.numel())});
+            };
+            const auto write_all = [&](const std::string& prefix, const torch::nn::Module& network) {
+                for (const auto& item : network.named_parameters()) write(prefix + item.key(), item.value());
+                for (const auto& item : network.named_buffers()) write(prefix + item.key(), item.value());
+            };
+            write_all("generator.", g);
+            write_all("discriminator.", d);
+            write("latent", latent);
+            write("motion", motion);
+            write("labels", labels);
+            ASSERT_TRUE(file.finish());
+        }
+        const auto run = run_command("/usr/bin/python3 " + oracle + " " + (dir / "case.h5").string() + " " +
+                                     (dir / "out.h5").string());
+        ASSERT_EQ(run.exit, 0) << run.output;
+        const hdf5::Reader out(dir / "out.h5");
+        auto generated = out.read<float>("motion"), scores = out.read<float>("scores");
+        for (const bool fused : {true, false}) {
+            g.set_fused(fused);
+            d.set_fused(fused);
+            const auto ours = g.forward(latent, labels);
+            // Floats against doubles, through as many layers as the network has.
+            expect_near(ours, at::from_blob(generated.data(), ours.sizes(), at::kFloat), 2e-4);
+            expect_near(d.forward(motion, labels), at::from_blob(scores.data(), {samples}, at::kFloat), 2e-4);
+        }
+        std::filesystem::remove(dir / "out.h5");
+    }
+}

@@ -1,0 +1,90 @@
+// Generator configurations: what they become and what they refuse, through `actformer model` too.
+#include "model/generators/actformer/settings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "model/generators/actformer/gan_settings.hpp"
+#include "model/generators/actformer/layers.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer;
+using namespace actformer::model;
+using namespace actformer::test;
+
+namespace {
+
+const std::string configs = source("model/configs/");
+
+Config with(const std::vector<std::string>& assignments) {
+    auto config = generator_config();
+    for (const auto& assignment : assignments) config.override_with(assignment);
+    return config;
+}
+
+void expect_refused(const std::vector<std::string>& assignments, std::uint32_t persons, std::size_t classes,
+                    const std::vector<std::string>& words) {
+    try {
+        const auto config = with(assignments);
+        generator_settings(config, ingest::ntu25(), persons, classes, 3, "ntu");
+        discriminator_settings(config, ingest::ntu25(), persons, classes, 3, "ntu");
+        ADD_FAILURE() << "taken";
+    } catch (const Error& e) {
+        for (const auto& word : words)
+            EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << word << ": " << e.what();
+    }
+}
+
+}  // namespace
+
+TEST(GeneratorSettings, SwitchesComeThrough) {
+    const auto config = with({"prior=gaussian", "shared_z=false", "pe=independent", "interaction=concat",
+                              "body=graphconv", "d_persons=selfatt", "d_width=16", "latent=32", "depth=3"});
+    const auto g = generator_settings(config, ingest::ntu25(), 2, 26, 3, "ntu");
+    EXPECT_EQ(g.prior.kind, PriorKind::gaussian);
+    EXPECT_EQ(g.prior.streams, 2U);
+    EXPECT_EQ(g.prior.channels, 32U);
+    EXPECT_EQ(g.positions, Positions::independent);
+    EXPECT_EQ(g.interaction, Interaction::concat);
+    EXPECT_EQ(g.body, Body::graphconv);
+    EXPECT_EQ(interacting_blocks(g), (std::vector<bool>{false, false, false}));
+    const auto d = discriminator_settings(config, ingest::ntu25(), 2, 26, 3, "ntu");
+    EXPECT_EQ(d.persons_in, PersonsInD::selfatt);
+    EXPECT_EQ(d.features(), 256U);
+    EXPECT_EQ(generator_settings(with({}), ingest::ntu25(), 2, 26, 6, "smpl").free_joint, 24U);
+}
+
+TEST(GeneratorSettings, RefusesWhatNoNetworkHas) {
+    expect_refused({"heads=7"}, 2, 26, {"heads: 7", "width: 200", "196"});
+    expect_refused({"width=25", "heads=5"}, 2, 26, {"width: 25 is odd"});
+    expect_refused({"persons=1"}, 2, 26, {"ntu: 2 persons", "persons: 1"});
+    expect_refused({"classes=94"}, 2, 26, {"ntu: 26 classes", "classes: 94"});
+    expect_refused({"body=lstm"}, 2, 26, {"body", "transformer, graphconv", "lstm"});
+    expect_refused({"pe=none"}, 2, 26, {"pe must be one of concat, tiled, independent, fixed"});
+    expect_refused({"d_persons=sum"}, 2, 26, {"concat, avgpool, maxpool, selfatt"});
+    expect_refused({"frames=8"}, 2, 26, {"frames must be a whole number from 16"});
+    expect_refused({}, 2, 0, {"classes are too few"});
+}
+
+TEST(ModelCommand, PrintsTable6ForThePapersConfiguration) {
+    const auto line = "model " + configs + "actformer-ntu-2p.yaml frames=64";
+    const auto text = run_actformer(line);
+    EXPECT_EQ(text.exit, 0) << text.output;
+    EXPECT_NE(text.output.find("1,359,675"), std::string::npos) << text.output;
+    EXPECT_NE(text.output.find("5,174,593"), std::string::npos) << text.output;
+    const auto json = nlohmann::json::parse(run_actformer(line + " --json").output);
+    EXPECT_EQ(json.at("generator").at("parameters"), 1'359'675);
+    EXPECT_EQ(json.at("discriminator").at("parameters"), 5'174'593);
+}
+
+TEST(ModelCommand, TakesEveryGeneratorConfiguration) {
+    for (const std::string name : {"actformer-ntu-1p", "actformer-ntu-2p", "actformer-bnr10"})
+        EXPECT_EQ(run_actformer("model " + configs + name + ".yaml").exit, 0) << name;
+    EXPECT_EQ(run_actformer("model " + configs + "actformer-small.yaml persons=2 classes=4").exit, 0);
+    const auto refused = run_actformer("model " + configs + "actformer-ntu-2p.yaml heads=9");
+    EXPECT_EQ(refused.exit, 1);
+    EXPECT_EQ(lines_in(refused.output), 1) << refused.output;
+}

@@ -1,0 +1,329 @@
+// What a report says: cells and their figures, the forms the tables come in, and the numbers packed into the page.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+
+#include "reports/page/curves.hpp"
+#include "reports/page/exports.hpp"
+#include "reports/page/html.hpp"
+#include "reports/page/moving.hpp"
+#include "reports/page/packed.hpp"
+#include "reports/page/page.hpp"
+#include "reports/page/projection.hpp"
+#include "tests/reports/pictures/made_figures.hpp"
+
+namespace actformer::reports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using testing::error_of;
+using testing::Folder;
+using testing::walkers;
+
+void write(const std::filesystem::path& path, const std::string& text) {
+    std::filesystem::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+}
+
+Json scores(const std::vector<double>& accuracy, const std::vector<double>& fid) {
+    return {{"accuracy", {{"mean", 0}, {"repeats", accuracy}}},
+            {"fid_mean", {{"mean", 0}, {"repeats", fid}}}};
+}
+
+/// A sweep's folder with rows that tests add.
+struct Report : ::testing::Test {
+    Folder dir;
+    Json rows = Json::array();
+
+    /// A row of done runs, one a set of scores.
+    Json& add(const std::string& name, const std::string& cell, const std::vector<Json>& all) {
+        Json row{{"name", name},
+                 {"status", "done"},
+                 {"fills", {cell}},
+                 {"dataset", "one"},
+                 {"split", "xsub/train"},
+                 {"data", {{"synthetic", 60}, {"seed", 1}}},
+                 {"settings", {{"prior", "gp"}}},
+                 {"runs", Json::array()}};
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const auto file = name + std::to_string(i) + ".json";
+            write(dir / "out" / file, all[i].dump());
+            row["runs"].push_back({{"seed", i}, {"status", "done"}, {"scores", file}});
+        }
+        rows.push_back(row);
+        return rows.back();
+    }
+    Measured read() {
+        write(dir / "out" / "results.json",
+              Json{{"format", 1}, {"sweep", "test"}, {"version", "0"}, {"rows", rows}}.dump());
+        return read_measured({dir / "out"});
+    }
+};
+
+const CellGroup& group(const std::vector<FilledTable>& tables, const std::string& name) {
+    const auto cell = find_cell(name);
+    return tables[static_cast<std::size_t>(cell.table - paper_tables().data())].rows[cell.row][cell.columns];
+}
+
+TEST_F(Report, ACellIsTheMeanOfAllRepeatsOfAllSeeds) {
+    add("full", "table3/full/NTU-1P", {scores({0.2, 0.4}, {1, 2}), scores({0.6}, {6})});
+    auto measured = read();
+    const auto tables = fill_tables(measured);
+    const auto& cell = group(tables, "table3/full/NTU-1P");
+    ASSERT_EQ(cell.state, CellState::measured);
+    EXPECT_EQ(cell.figures[0].repeats, 3U);
+    EXPECT_DOUBLE_EQ(cell.figures[0].measured->mean, 40) << "accuracies are in per cent";
+    EXPECT_DOUBLE_EQ(cell.figures[1].measured->mean, 3);
+    // t(0.975, 2) = 4.30265, s = sqrt(7): from any table of Student's distribution
+    EXPECT_NEAR(*cell.figures[1].measured->half_width, 4.30265 * std::sqrt(7.0 / 3), 1e-4);
+    EXPECT_FALSE(cell.figures[2].measured) << "FIDw is not among the scores";
+    EXPECT_DOUBLE_EQ(*cell.figures[0].paper, 42.01);
+    EXPECT_TRUE(measured.notices.empty());
+}
+
+TEST_F(Report, TheBestOfAColumnIsTheHighestAccuracyAndTheLowestDistance) {
+    add("full", "table3/full/NTU-1P", {scores({0.5}, {4})});
+    add("gaussian", "table3/Gaussian prior/NTU-1P", {scores({0.7}, {9})});
+    auto measured = read();
+    const auto tables = fill_tables(measured);
+    const auto &full = group(tables, "table3/full/NTU-1P"),
+               &gaussian = group(tables, "table3/Gaussian prior/NTU-1P");
+    EXPECT_FALSE(full.figures[0].best);
+    EXPECT_TRUE(full.figures[1].best);
+    EXPECT_TRUE(gaussian.figures[0].best);
+    EXPECT_FALSE(gaussian.figures[1].best);
+    EXPECT_TRUE(full.figures[0].paper_best) << "the paper's best is marked on its own";
+}
+
+TEST_F(Report, NothingOfThePapersIsEverTakenForMeasured) {
+    auto measured = read();
+    const auto tables = fill_tables(measured);
+    ASSERT_EQ(tables.size(), 5U);
+    for (const auto& table : tables)
+        for (const auto& row : table.rows)
+            for (const auto& one : row) {
+                EXPECT_EQ(one.state, CellState::not_run);
+                for (const auto& figures : one.figures) EXPECT_FALSE(figures.measured || figures.best);
+            }
+    const auto html = html_tables(tables);
+    EXPECT_EQ(html.find("class=\"value\""), std::string::npos);
+    EXPECT_NE(html.find("not run"), std::string::npos);
+    EXPECT_EQ(to_latex(tables).find("42.01"), std::string::npos);
+}
+
+TEST_F(Report, SaysWhatFailedAndWhatIsNotFinished) {
+    rows.push_back(
+        {{"name", "a"}, {"status", "failed"}, {"why", "no <space> left"}, {"fills", {"table3/full/NTU-1P"}}});
+    rows.push_back({{"name", "b"}, {"status", "waiting"}, {"fills", {"table3/fixed PE/NTU-1P"}}});
+    auto measured = read();
+    const auto html = html_tables(fill_tables(measured));
+    EXPECT_NE(html.find(">failed<"), std::string::npos);
+    EXPECT_NE(html.find("no &lt;space&gt; left"), std::string::npos);
+    EXPECT_NE(html.find("not finished"), std::string::npos);
+}
+
+TEST_F(Report, UnknownCellsAndCellsFilledTwiceAreTold) {
+    add("first", "table3/full/NTU-1P", {scores({0.1}, {1})});
+    add("second", "table3/full/NTU-1P", {scores({0.2}, {2})});
+    add("third", "table9/full/NTU-1P", {scores({0.3}, {3})});
+    auto measured = read();
+    const auto tables = fill_tables(measured);
+    EXPECT_DOUBLE_EQ(group(tables, "table3/full/NTU-1P").figures[0].measured->mean, 20);
+    ASSERT_EQ(measured.notices.size(), 2U);
+    EXPECT_NE(measured.notices[0].find("‘first’"), std::string::npos) << measured.notices[0];
+    EXPECT_NE(measured.notices[1].find("table9"), std::string::npos) << measured.notices[1];
+}
+
+TEST_F(Report, MissingAndDamagedScoresAreToldAndTheRestStands) {
+    add("full", "table3/full/NTU-1P", {scores({0.5}, {4}), scores({0.7}, {6})});
+    add("gone", "table3/fixed PE/NTU-1P", {scores({0.5}, {4})});
+    std::filesystem::remove(dir / "out" / "gone0.json");
+    write(dir / "out" / "full1.json", "{\"accuracy\": {\"rep");
+    auto measured = read();
+    ASSERT_EQ(measured.notices.size(), 2U);
+    EXPECT_NE(measured.notices[0].find("full1.json is damaged"), std::string::npos) << measured.notices[0];
+    EXPECT_NE(measured.notices[1].find("gone0.json is missing"), std::string::npos) << measured.notices[1];
+    const auto tables = fill_tables(measured);
+    EXPECT_EQ(group(tables, "table3/full/NTU-1P").figures[0].repeats, 1U);
+    EXPECT_EQ(group(tables, "table3/fixed PE/NTU-1P").state, CellState::waiting);
+}
+
+TEST_F(Report, ScoresOfAnotherShapeAreNoFigures) {
+    add("odd", "table3/full/NTU-1P",
+        {Json{{"accuracy", 7},
+              {"fid_mean", {{"repeats", "many"}}},
+              {"fid_whole", {{"repeats", {nullptr, "x", 2.5}}}},
+              {"per_class", 3},
+              {"confusion", {{1, 2}, 3}},
+              {"provenance", {1}},
+              {"warnings", "w"}}});
+    auto measured = read();
+    const auto tables = fill_tables(measured);
+    const auto& cell = group(tables, "table3/full/NTU-1P");
+    EXPECT_FALSE(cell.figures[0].measured || cell.figures[1].measured);
+    EXPECT_DOUBLE_EQ(cell.figures[2].measured->mean, 2.5);
+    EXPECT_FALSE(page("t", tables, measured.notices, details(measured)).empty());
+}
+
+TEST_F(Report, RefusesWhatIsNoSweep) {
+    EXPECT_NE(error_of([&] { read_measured({dir / "none"}); }).find("no results.json"), std::string::npos);
+    write(dir / "half" / "results.json", "{\"format\": 1, \"ro");
+    EXPECT_NE(error_of([&] { read_measured({dir / "half"}); }).find("damaged"), std::string::npos);
+    write(dir / "later" / "results.json", "{\"format\": 2, \"rows\": []}");
+    EXPECT_NE(error_of([&] { read_measured({dir / "later"}); }).find("another version"), std::string::npos);
+}
+
+TEST_F(Report, NamesAreTextInEveryForm) {
+    const std::string name = "</script><b>&\"x, y_z\\";
+    auto& row = add("full", "table3/full/NTU-1P", {scores({0.5}, {4})});
+    row["name"] = name;
+    row["data"] = {{"path", "<img src=x>"}};
+    auto measured = read();
+    const auto tables = fill_tables(measured);
+    const auto html = page("<i>title", tables, measured.notices, details(measured));
+    for (const auto* markup : {"</script><b>", "<b>&\"x", "<b>&amp;&quot;x", "<img", "<i>title"})
+        EXPECT_EQ(html.find(markup), std::string::npos) << markup;
+    EXPECT_NE(html.find("&lt;/script&gt;&lt;b&gt;&amp;&quot;x"), std::string::npos);
+    EXPECT_NE(html.find("<div class=\"note\">"), std::string::npos) << "what the data is comes first";
+    EXPECT_EQ(to_json(tables, {})["tables"][2]["rows"][3]["groups"][0]["provenance"][0],
+              "sweep test, row " + name);
+}
+
+TEST_F(Report, CsvHasALineForEveryFigureOfThePaper) {
+    add("full", "table3/full/NTU-1P", {scores({0.5, 0.7}, {4, 6})});
+    auto measured = read();
+    const auto csv = to_csv(fill_tables(measured));
+    EXPECT_NE(csv.find("\ntable3,full,NTU-1P,fid_mean,measured,5,12.706"), std::string::npos)
+        << "t(0.975, 1) = 12.706, s / sqrt(2) = 1";
+    EXPECT_NE(csv.find("\ntable3,fixed PE,NTU-1P,accuracy,not run,,,0,37.57\n"), std::string::npos);
+    // 4 rows of 12, then 4, 6 and 3 rows of 5 and their groups: DESIGN 5
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 12 + 4 * 9 + 4 * 3 + 6 * 5 + 3 * 9);
+}
+
+TEST_F(Report, LatexHasAsManyColumnsInEveryLine) {
+    add("full", "table3/full/NTU-1P", {scores({0.5, 0.7}, {4, 6})});
+    auto measured = read();
+    std::istringstream latex(to_latex(fill_tables(measured)));
+    bool in_third = false;
+    for (std::string line; std::getline(latex, line);) {
+        in_third = in_third || line == "\\begin{tabular}{lrrr}";
+        if (in_third && line.starts_with("full &")) {
+            EXPECT_EQ(line,
+                      "full & \\textbf{60.00}{\\scriptsize\\,$\\pm$127.06} & "
+                      "\\textbf{5.00}{\\scriptsize\\,$\\pm$12.71} & -- \\\\");
+        }
+        if (in_third && line.ends_with("\\\\") && line.find("multicolumn") == std::string::npos) {
+            EXPECT_EQ(std::count(line.begin(), line.end(), '&'), 3) << line;
+        }
+        if (line == "\\end{tabular}") in_third = false;
+    }
+}
+
+TEST(Packed, IsBase64OfLittleEndianNumbers) {
+    const auto of = [](const std::string& text) {
+        return base64({reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+    };
+    EXPECT_EQ(of(""), "");  // RFC 4648, section 10
+    EXPECT_EQ(of("f"), "Zg==");
+    EXPECT_EQ(of("fo"), "Zm8=");
+    EXPECT_EQ(of("foobar"), "Zm9vYmFy");
+    EXPECT_EQ(packed(std::vector<std::int16_t>{0x6F66, 0x626F, 0x7261}), "Zm9vYmFy");
+    EXPECT_EQ(packed(std::vector<std::int16_t>{-1}), "//8=");
+}
+
+TEST(PackedMotion, ComesBackWithinHalfAStep) {
+    const auto figure = walkers(2, 7);
+    const auto motion = packed_motion(figure, 60, 2);
+    EXPECT_EQ(motion["frames"], 4);
+    EXPECT_DOUBLE_EQ(motion["fps"].get<double>(), 15);
+    const double scale = motion["scale"];
+    EXPECT_LT(scale, 1e-4) << "a tenth of a millimetre for bodies of some metres";
+    // the last coordinate of all, read from the base64 by hand: 2 bytes, little-endian
+    const auto text = motion["xyz"].get<std::string>();
+    const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::vector<unsigned char> bytes;
+    for (std::size_t i = 0; i + 4 <= text.size(); i += 4) {
+        unsigned bits = 0;
+        for (std::size_t k = 0; k < 4; ++k) bits = bits << 6 | (letters.find(text[i + k]) & 63U);
+        for (int shift = 16; shift >= 0; shift -= 8)
+            bytes.push_back(static_cast<unsigned char>(bits >> shift));
+    }
+    ASSERT_GE(bytes.size(), 2U * 4 * 2 * 25 * 3);
+    for (std::size_t i = 0; i < 4 * 2 * 25 * 3; ++i) {
+        const auto whole = static_cast<std::int16_t>(bytes[2 * i] | bytes[2 * i + 1] << 8);
+        const auto frame = i / 150, rest = i % 150;
+        EXPECT_NEAR(motion["origin"][i % 3].get<double>() + scale * whole,
+                    figure.joints[2 * frame * 150 + rest], 0.51 * scale);
+    }
+}
+
+TEST(PackedMotion, ABodyThatIsGoneStaysWhereItWas) {
+    auto figure = walkers(1, 3);
+    figure.seen = {1, 0, 1};
+    for (std::size_t i = 75; i < 150; ++i) figure.joints[i] = 1e30F;
+    const auto motion = packed_motion(figure, 3);
+    EXPECT_LT(motion["scale"].get<double>(), 1e-3) << "what is not there does not count";
+}
+
+TEST(Projections, AreThePrincipalAxes) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> normal;
+    eval::Samples real{3, 2, {}, {}, {}};
+    for (std::uint32_t i = 0; i < 1000; ++i) {
+        // deviations 6, 3 and 1 along (1, 1, 0) / sqrt 2, (0, 0, 1) and (1, -1, 0) / sqrt 2, about (5, 0, -2)
+        const double a = 6 * normal(random), b = 3 * normal(random), c = normal(random), r = std::sqrt(0.5);
+        for (const double x : {5 + r * (a + c), r * (a - c), -2 + b}) real.features.push_back(x);
+        real.labels.push_back(i % 2);
+    }
+    const Projection projection(real);
+    // shares 36 : 9 : 1; a variance of 1000 samples is known to about 2 / sqrt(2000) = 4.5 %
+    EXPECT_NEAR(projection.explained()[0], 36.0 / 46, 0.03);
+    EXPECT_NEAR(projection.explained()[1], 9.0 / 46, 0.03);
+    eval::Samples one{3, 2, {5 + 6 * std::sqrt(0.5), 6 * std::sqrt(0.5), -2}, {}, {1}};
+    const auto points = projection.of(one);
+    EXPECT_NEAR(points.xy[0] / 4096.0, 1, 0.15) << "one deviation along the first axis";
+    EXPECT_NEAR(points.xy[1] / 4096.0, 0, 0.15);
+    EXPECT_EQ(points.labels[0], 1);
+    EXPECT_EQ(projection.real().labels.size(), 1000U);
+    double square = 0;
+    for (std::size_t i = 0; i < 1000; ++i) square += std::pow(projection.real().xy[2 * i] / 4096.0, 2);
+    EXPECT_NEAR(square / 999, 1, 1e-3) << "the real side has deviation 1";
+}
+
+TEST(Projections, FarPointsAndSamplesThatAreAllTheSameStayFinite) {
+    eval::Samples same{2, 1, {3, 3, 3, 3}, {}, {0, 0}};
+    EXPECT_EQ(Projection(same).real().xy, (std::vector<std::int16_t>{0, 0, 0, 0}));
+    eval::Samples real{2, 1, {0, 0, 1, 0, 2, 0.5}, {}, {0, 0, 0}}, far{2, 1, {1e9, 0}, {}, {0}};
+    EXPECT_NEAR(std::abs(Projection(real).of(far).xy[0]), 8 * 4096, 8);
+    eval::Samples other{3, 1, {0, 0, 0}, {}, {0}};
+    EXPECT_NE(error_of([&] { Projection(real).of(other); }).find("3 dimensions"), std::string::npos);
+}
+
+TEST(Curves, JoinLinesOfAnEpochAndPassOverBrokenOnes) {
+    const Folder dir;
+    write(dir / "run" / "log.jsonl",
+          "{\"epoch\": 1, \"loss\": 2.5, \"rate\": 0.1}\n"
+          "not json\n"
+          "{\"epoch\": 2, \"loss\": 1.5}\n"
+          "{\"epoch\": 2, \"accuracy\": 0.25}\n"
+          "{\"epoch\": 3, \"lo");
+    const auto curves = read_curves(dir / "run", {"loss", "accuracy"});
+    EXPECT_EQ(curves,
+              Json::parse(R"([{"epoch": 1, "loss": 2.5}, {"epoch": 2, "loss": 1.5, "accuracy": 0.25}])"));
+    EXPECT_EQ(read_curves(dir / "none", {"loss"}), Json::array());
+}
+
+TEST(Curves, LongOnesAreThinnedAndKeepTheirEnd) {
+    const Folder dir;
+    std::string log;
+    for (int i = 1; i <= 2001; ++i) log += "{\"epoch\": " + std::to_string(i) + ", \"loss\": 1}\n";
+    write(dir / "run" / "log.jsonl", log);
+    const auto curves = read_curves(dir / "run", {"loss"});
+    EXPECT_LE(curves.size(), 501U);
+    EXPECT_EQ(curves.front()["epoch"], 1);
+    EXPECT_EQ(curves.back()["epoch"], 2001);
+}
+
+}  // namespace
+}  // namespace actformer::reports
