@@ -89,8 +89,8 @@ std::string to_bytes(const Checkpoint& checkpoint) {
 std::optional<Checkpoint> checkpoint_from(std::string_view bytes) {
     if (!bytes.starts_with(heading)) return std::nullopt;
     bytes.remove_prefix(heading.size());
-    const auto checksum = take_line(bytes);
-    if (!checksum || checksum(bytes) != *checksum) return std::nullopt;
+    const auto wanted = take_line(bytes);
+    if (!wanted || checksum(bytes) != *wanted) return std::nullopt;
     const auto line = take_line(bytes);
     if (!line) return std::nullopt;
     const auto json = Json::parse(*line);  // whole, as the checksum says

@@ -9,6 +9,7 @@
 
 namespace {
 
+using namespace actformer;
 using namespace actformer::ingest;
 
 /// A synthetic clip and the zero bytes that readers may load.

@@ -12,7 +12,7 @@
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
-using namespace actformer::ingest;
+using namespace actformer;
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 using namespace actformer;
 using namespace actformer::test;
-using Aside;
+using actformer::Aside;
 namespace fs = std::filesystem;
 
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-using namespace actformer::ingest;
+using namespace actformer;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace actformer::ingest {
+namespace actformer {
 namespace {
 
 /// The characters that parse_number took, -1 where it refused; `text` stands before 8 zero bytes and no more.
@@ -121,4 +121,4 @@ TEST(Number, TakesAnyNumberOfDigits) {
 }
 
 }  // namespace
-}  // namespace actformer::ingest
+}  // namespace actformer

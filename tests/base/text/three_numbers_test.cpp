@@ -9,7 +9,7 @@
 #include "base/text/lines.hpp"
 #include "base/text/number.hpp"
 
-using namespace actformer::ingest;
+using namespace actformer;
 
 namespace {
 

@@ -63,11 +63,11 @@ TEST_F(TrainRecogniser, TellsToyClassesApart) {
     EXPECT_GT(json.at("class_accuracy"), 0.85) << result.output;
     EXPECT_EQ(json.at("confusion").size(), 3U);
     EXPECT_EQ(epochs_logged(dir / "run"), 40U);
-    const hdf5::Reader weights(dir / "run/weights-best.h5");
+    const actformer::hdf5::Reader weights(dir / "run/weights-best.h5");
     EXPECT_EQ(weights.attribute_numbers("classes"), std::vector<std::int64_t>{3});
     EXPECT_EQ(weights.attribute_numbers("channels"), std::vector<std::int64_t>{3});
     EXPECT_EQ(weights.attribute_numbers("center"), std::vector<std::int64_t>{0});
-    EXPECT_EQ(weights.shape("st_gcn_networks.3.tcn.2.weight"), (hdf5::Shape{16, 16, 9, 1}));
+    EXPECT_EQ(weights.shape("st_gcn_networks.3.tcn.2.weight"), (actformer::hdf5::Shape{16, 16, 9, 1}));
 }
 
 TEST_F(TrainRecogniser, GoesOnAfterAKillToTheSameBits) {
