@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 import torch
 from torch.nn import functional as F
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'bench'))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'bench'))
 from recogniser_accuracy import partition
 from recogniser_epoch import Net
 
