@@ -34,7 +34,8 @@ void run(const Options& options) {
     writer.finish();
     progress.clear();
     fmt::print("{}: {} of split {}, each ({}, {}, frames)\n", options.out, counted(clips.size(), "clip"),
-               options.split, dataset.header().persons * 3, dataset.header().topology.joints());
+               options.split, dataset.header().persons * dataset.header().representation.numbers(),
+               dataset.header().nodes());
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ std::uint32_t high(std::uint64_t value) {
 
 /// What each root weighs in a window's mean; 0 where windows are not centred.
 float share_of_root(const ClipTable& table, std::uint32_t window) {
-    return table.centre_windows ? 1 / (static_cast<float>(window) * static_cast<float>(table.persons)) : 0.0F;
+    return table.centring ? 1 / (static_cast<float>(window) * static_cast<float>(table.persons)) : 0.0F;
 }
 
 void check(const ClipTable& table) {
@@ -41,9 +41,11 @@ void check(const ClipTable& table) {
         throw Error("{} clips with {} labels", table.clips(), table.labels.size());
     if (table.persons < 1 || table.persons > most_persons)
         throw Error("clips of {} persons: 1 to {} can be drawn", table.persons, most_persons);
-    if (table.centre_windows && (table.channels < 3 || table.joints == 0))
-        throw Error("clips of {} joints and {} channels have no root to centre", table.joints,
-                    table.channels);
+    if (const auto& moved = table.centring;
+        moved && (table.numbers < 3 || moved->root >= table.nodes || moved->first > table.nodes ||
+                  moved->count > table.nodes - moved->first))
+        throw Error("clips of {} nodes of {} numbers have no node {} to centre, or none to {} behind it",
+                    table.nodes, table.numbers, moved->root, std::uint64_t{moved->first} + moved->count);
     if (const auto none = std::find(table.frames.begin(), table.frames.end(), 0U); none != table.frames.end())
         throw Error("clip {} has no frames", none - table.frames.begin());
 }
@@ -134,13 +136,14 @@ Sampler::Sampler(const ClipStore& clips, const SamplerOptions& options) : clips_
 void Sampler::draw(std::uint64_t index, Batch& into) const {
     auto& device = clips_->device();
     const auto& table = clips_->table();
+    const auto moved = table.centring.value_or(Centring{});
     into.begin(into.samples_, *clips_);
     launch(device, sampler_kernel(device, "draw"), {into.window_, into.samples_}, clips_->motion(),
            clips_->clips(), by_class_, class_first_, class_edge_, drawn_, low(options_.seed),
            high(options_.seed), low(index), high(index), options_.first_sample,
            static_cast<std::uint32_t>(options_.permute_persons), share_of_root(table, into.window_),
-           into.samples_, into.window_, table.persons, table.joints, table.channels, into.values_.memory(),
-           into.labels_.memory(), into.picks_.memory());
+           into.samples_, into.window_, table.persons, table.nodes, table.numbers, moved.root, moved.first,
+           moved.count, into.values_.memory(), into.labels_.memory(), into.picks_.memory());
     into.values_.begin_map();
     into.labels_.begin_map();
     into.picks_.begin_map();
@@ -170,11 +173,12 @@ void WindowCutter::cut(std::size_t first, Batch& into) const {
     auto& device = clips_->device();
     const auto& table = clips_->table();
     const auto filled = first < count_ ? std::min<std::size_t>(into.samples_, count_ - first) : 0;
+    const auto moved = table.centring.value_or(Centring{});
     into.begin(static_cast<std::uint32_t>(filled), *clips_);
     launch(device, sampler_kernel(device, "cut"), {into.window_, into.filled_}, clips_->motion(),
            clips_->clips(), windows_, static_cast<std::uint32_t>(first), share_of_root(table, into.window_),
-           into.filled_, into.window_, table.persons, table.joints, table.channels, into.values_.memory(),
-           into.labels_.memory(), into.picks_.memory());
+           into.filled_, into.window_, table.persons, table.nodes, table.numbers, moved.root, moved.first,
+           moved.count, into.values_.memory(), into.labels_.memory(), into.picks_.memory());
 }
 
 }  // namespace actformer::kernels

@@ -1,8 +1,9 @@
-// Batches of windows for training and for evaluation, made on the device from clips that lie there (DESIGN 4.3).
+// Batches of windows for training and for evaluation, made on the device from clips that lie there.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,16 +12,21 @@
 
 namespace actformer::kernels {
 
+/// A window is centred: the position that node `root` carries in its first three numbers is averaged over the window's
+/// frames and persons, and taken from the first three numbers of `count` nodes from `first` on.
+struct Centring {
+    std::uint32_t root = 0, first = 0, count = 1;
+};
+
 /// What is known of the clips before their frames come.
 struct ClipTable {
-    std::uint32_t persons = 1, joints = 0, channels = 3;  ///< persons at most 16
-    std::vector<std::uint32_t> frames;                    ///< (clips) each at least 1
-    std::vector<std::uint32_t> labels;                    ///< (clips)
-    bool centre_windows =
-        false;  ///< show the root relative to its mean over a window's frames and persons; for limb data
+    std::uint32_t persons = 1, nodes = 0, numbers = 3;  ///< persons at most 16; numbers of a node
+    std::vector<std::uint32_t> frames;                  ///< (clips) each at least 1
+    std::vector<std::uint32_t> labels;                  ///< (clips)
+    std::optional<Centring> centring = {};              ///< none: windows are shown as they are
 
     std::size_t clips() const { return frames.size(); }
-    std::size_t frame_values() const { return std::size_t{persons} * joints * channels; }
+    std::size_t frame_values() const { return std::size_t{persons} * nodes * numbers; }
 };
 
 /// Clips on a device: every frame, and which clip has which label.
@@ -29,7 +35,7 @@ class ClipStore {
     /// Makes room. Throws Error for a table without clips, a clip without frames, or frames that do not fit on the device.
     ClipStore(Device& device, ClipTable table);
 
-    /// The frames of one clip: values (frames, P, K, C).
+    /// The frames of one clip: values (frames, P, nodes, numbers).
     void load(std::size_t clip, std::span<const float> values);
 
     const ClipTable& table() const { return table_; }
@@ -57,7 +63,7 @@ class Batch {
     std::uint32_t filled() const { return filled_; }
 
     struct View {
-        std::span<float> values;          ///< (filled, P*C, window, K)
+        std::span<float> values;          ///< (filled, P*numbers, window, nodes)
         std::span<std::uint32_t> labels;  ///< (filled)
         std::span<std::uint32_t> picks;   ///< (filled, 2): the clip and its first frame
     };
@@ -66,7 +72,7 @@ class Batch {
     View map();
     void unmap();
 
-    /// The values (samples, P*C, window, K) for kernels that read them on the device, while not mapped.
+    /// The values (samples, P*numbers, window, nodes) for kernels that read them on the device, while not mapped.
     const cl::Buffer& values() const { return values_.memory(); }
 
   private:

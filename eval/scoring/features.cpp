@@ -194,7 +194,7 @@ FeaturesSummary features_of_dataset(const FeaturesRequest& request, const Weight
                                     kernels::Device& device, const Tell& tell) {
     const ingest::Dataset dataset(request.input);
     check_fits(weights, dataset, request.persons_apart);
-    const auto view = load_view(device, dataset, request.split);
+    const auto view = ingest::load_view(device, dataset, request.split);
     const auto windows = kernels::consecutive_windows(view.store.table().frames, request.window);
     const kernels::WindowCutter cutter(view.store, windows);
     auto batch = make_batch(view.store, std::min<std::size_t>(request.batch, windows.size()), request.window);

@@ -29,7 +29,7 @@ std::vector<std::string> faults_of(const fs::path& path, const ShardEntry& entry
         const auto clips = read_clips(path, header, 0);
         const auto motion = hdf5::Reader(path).read<float>("motion");
         for (const auto& clip : clips) {
-            const auto per_frame = header.persons * header.topology.joints() * 3;
+            const auto per_frame = header.frame_values();
             const auto* first = motion.data() + clip.offset * per_frame;
             if (!std::all_of(first, first + clip.frames * per_frame,
                              [](float v) { return std::isfinite(v); }))
@@ -93,13 +93,21 @@ const hdf5::Reader& Dataset::shard_of(const Clip& clip) const {
 
 Motion Dataset::motion(std::size_t clip) const {
     const auto& which = clips_.at(clip);
-    return {which.name, which.frames, header_.persons, static_cast<std::uint32_t>(header_.topology.joints()),
+    return {which.name,
+            which.frames,
+            header_.persons,
+            header_.nodes(),
+            header_.representation.numbers(),
             shard_of(which).read_rows("motion", which.offset, which.frames)};
 }
 
 std::vector<float> Dataset::bone_length(std::size_t clip) const {
     const auto& which = clips_.at(clip);
     return shard_of(which).read_rows("clip/bone_length", clip - first_clip_[which.shard], 1);
+}
+
+BodyModel Dataset::body(std::size_t clip) const {
+    return {header_.representation, header_.topology, bone_length(clip), header_.rest};
 }
 
 std::string Dataset::public_name(std::size_t clip) const {

@@ -1,4 +1,4 @@
-// A dataset: a folder with dataset.json and checksummed shards (DESIGN 3). Read-only; DatasetWriter makes one.
+// A dataset: a folder with dataset.json and checksummed shards. Read-only; ingest() makes one.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ingest/dataset/motion.hpp"
+#include "ingest/dataset/body_model.hpp"
 #include "ingest/dataset/split.hpp"
 
 namespace actformer::hdf5 {
@@ -19,9 +19,10 @@ namespace actformer::ingest {
 
 /// What dataset.json says, shards apart.
 struct DatasetHeader {
-    std::string name;                     ///< as in "ntu-1p"
-    std::string representation = "limb";  ///< root position and unit limb vectors, 3 numbers a joint
+    std::string name;  ///< as in "ntu-1p"
+    Representation representation;
     Topology topology;
+    std::vector<float> rest;  ///< (joints, 3) metres, as in BodyModel; of rotations, else empty
     std::uint32_t persons = 1;
     double fps = 30;
     bool centre_windows =
@@ -29,6 +30,11 @@ struct DatasetHeader {
     std::vector<std::string> classes;  ///< label i is classes[i]
     std::vector<std::string> fields;   ///< metadata of every clip that splits may ask for, as in "performer"
     std::vector<Split> splits;
+
+    std::uint32_t nodes() const { return representation.nodes(topology); }
+    std::size_t frame_values() const {  ///< numbers of a frame, (persons, nodes, numbers)
+        return std::size_t{persons} * nodes() * representation.numbers();
+    }
 };
 
 /// Where a clip is and what is known of it.
@@ -66,6 +72,7 @@ class Dataset {
 
     Motion motion(std::size_t clip) const;
     std::vector<float> bone_length(std::size_t clip) const;  ///< (persons, joints) metres
+    BodyModel body(std::size_t clip) const;                  ///< what gives its joint positions
 
     /// Clip names as the public tools spell them: the action renumbered to the label for NTU, else the name.
     std::string public_name(std::size_t clip) const;

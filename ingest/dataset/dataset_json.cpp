@@ -1,5 +1,7 @@
 #include "ingest/dataset/dataset_json.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -36,6 +38,30 @@ std::vector<Split> splits_from_json(const Json& json) {
     return out;
 }
 
+/// (joints, 3) as rows; the shortest decimals that give the same float32 back.
+Json rest_to_json(const std::vector<float>& rest) {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < rest.size(); i += 3) {
+        Json row = Json::array();
+        for (std::size_t d = 0; d < 3; ++d) row.push_back(std::stod(fmt::format("{}", rest[i + d])));
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+std::vector<float> rest_from_json(const Json& json, const DatasetHeader& header, const std::string& where) {
+    std::vector<float> rest;
+    for (const auto& row : json.value("rest", Json::array()))
+        for (const auto x : row.get<std::array<float, 3>>()) rest.push_back(x);
+    const bool rotations = header.representation == Representation::rot6d;
+    if (rotations ? rest.size() != header.topology.joints() * 3 : !rest.empty())
+        throw Error("{}: 'rest' has {} offsets for {} joints in representation {}; ingest the raw data again",
+                    where, rest.size() / 3, header.topology.joints(), header.representation.name());
+    if (!std::ranges::all_of(rest, [](float x) { return std::isfinite(x); }))
+        throw Error("{}: 'rest' holds numbers that are not finite", where);
+    return rest;
+}
+
 DatasetFile from_json(const Json& json, const std::string& where) {
     if (const auto format = json.at("format").get<int>(); format != dataset_format)
         throw Error(
@@ -44,7 +70,7 @@ DatasetFile from_json(const Json& json, const std::string& where) {
     DatasetFile file;
     auto& header = file.header;
     header.name = json.at("name").get<std::string>();
-    header.representation = json.at("representation").get<std::string>();
+    header.representation = Representation::named(json.at("representation").get<std::string>(), where);
     header.fps = json.at("fps").get<double>();
     header.persons = json.at("persons").get<std::uint32_t>();
     header.centre_windows = json.value("centre", "clip") == "window";
@@ -57,6 +83,7 @@ DatasetFile from_json(const Json& json, const std::string& where) {
     file.fingerprint = json.at("source").get<std::string>();
     for (const auto& shard : json.at("shards")) file.shards.push_back(shard_from_json(shard));
     header.topology.check(where);
+    header.rest = rest_from_json(json, header, where);
     if (header.persons == 0 || !(header.fps > 0) || !std::isfinite(header.fps))
         throw Error("{}: persons and fps must be above 0", where);
     return file;
@@ -90,7 +117,7 @@ std::string to_text(const DatasetFile& file) {
     Json json{{"format", dataset_format},
               {"program", "actformer " ACTFORMER_VERSION},
               {"name", header.name},
-              {"representation", header.representation},
+              {"representation", header.representation.name()},
               {"fps", header.fps},
               {"persons", header.persons},
               {"clips", clips},
@@ -102,6 +129,7 @@ std::string to_text(const DatasetFile& file) {
               {"settings", file.settings},
               {"source", file.fingerprint},
               {"shards", shards}};
+    if (!header.rest.empty()) json["rest"] = rest_to_json(header.rest);
     if (header.centre_windows) json["centre"] = "window";
     return json.dump(1) + "\n";
 }

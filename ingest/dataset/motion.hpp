@@ -1,28 +1,25 @@
-// A cleaned motion, and its way back to joint positions.
+// A cleaned motion in numbers.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "ingest/dataset/topology.hpp"
-
 namespace actformer::ingest {
 
-/// values (frames, persons, joints, 3) float32: joint 0 the root's position in metres, the others unit limb vectors
-/// from parent to child.
+/// values (frames, persons, nodes, numbers) float32, as the motion's representation has them.
 struct Motion {
     std::string name;
-    std::uint32_t frames = 0, persons = 0, joints = 0;
+    std::uint32_t frames = 0, persons = 0, nodes = 0, numbers = 3;
     std::vector<float> values;
 
-    const float* at(std::size_t frame, std::size_t person, std::size_t joint) const {
-        return &values[((frame * persons + person) * joints + joint) * 3];
+    const float* at(std::size_t frame, std::size_t person, std::size_t node) const {
+        return &values[((frame * persons + person) * nodes + node) * numbers];
     }
 };
 
-/// (frames, persons, joints, 3) joint positions in metres. `bone_length` (persons, joints) in metres.
-std::vector<float> joint_positions(const Motion& motion, const Topology& topology,
-                                   const std::vector<float>& bone_length);
+/// Whether the numbers could be limbs: over half of the nodes behind the first are as long as a unit vector, within a twentieth.
+/// Positions of joints are not. True for a motion of one node.
+bool has_unit_limbs(const Motion& motion);
 
 }  // namespace actformer::ingest

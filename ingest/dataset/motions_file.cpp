@@ -11,34 +11,42 @@ struct MotionsFile::Handle {
     hdf5::Reader reader;
 };
 
-MotionsFile::MotionsFile(const std::filesystem::path& path)
-    : path_(path), file_(new Handle{hdf5::Reader(path)}) {
+MotionsFile::MotionsFile(const std::filesystem::path& path, Representation otherwise)
+    : path_(path), file_(new Handle{hdf5::Reader(path)}), representation_(otherwise) {
     for (auto& name : file_->reader.names())
         if (file_->reader.is_array(name)) names_.push_back(std::move(name));
     if (names_.empty())
         throw Error("{}: holds no motions; one (P*C, K, T) array a clip is expected", path.string());
+    if (const auto told = read_representation(file_->reader, path.string())) {
+        representation_ = *told;
+        tells_representation_ = true;
+    }
     subjects_ = read_subjects(file_->reader, path.string());
 }
 
+MotionsFile::MotionsFile(MotionsFile&& other) noexcept = default;
 MotionsFile::~MotionsFile() = default;
 
 Motion MotionsFile::read(const std::string& name) const {
     const auto shape = file_->reader.shape(name);
-    if (shape.size() != 3 || shape[0] == 0 || shape[0] % 3 != 0 || shape[1] == 0)
-        throw Error("{}: '{}' is no (P*3, K, T) array", path_.string(), name);
-    Motion motion;
-    motion.name = name;
-    motion.persons = static_cast<std::uint32_t>(shape[0] / 3);
-    motion.joints = static_cast<std::uint32_t>(shape[1]);
-    motion.frames = static_cast<std::uint32_t>(shape[2]);
+    const auto numbers = representation_.numbers();
+    if (shape.size() != 3 || shape[0] == 0 || shape[0] % numbers != 0 || shape[1] == 0)
+        throw Error("{}: '{}' is no (P*{}, K, T) array, as {} has them", path_.string(), name, numbers,
+                    representation_.name());
+    Motion motion{name,
+                  static_cast<std::uint32_t>(shape[2]),
+                  static_cast<std::uint32_t>(shape[0] / numbers),
+                  static_cast<std::uint32_t>(shape[1]),
+                  numbers,
+                  {}};
     const auto stored = file_->reader.read<float>(name);
     motion.values.resize(stored.size());
     const float* from = stored.data();
     for (std::size_t p = 0; p < motion.persons; ++p)
-        for (std::size_t d = 0; d < 3; ++d)
-            for (std::size_t k = 0; k < motion.joints; ++k)
+        for (std::size_t d = 0; d < numbers; ++d)
+            for (std::size_t k = 0; k < motion.nodes; ++k)
                 for (std::size_t t = 0; t < motion.frames; ++t)
-                    motion.values[((t * motion.persons + p) * motion.joints + k) * 3 + d] = *from++;
+                    motion.values[((t * motion.persons + p) * motion.nodes + k) * numbers + d] = *from++;
     return motion;
 }
 
@@ -55,10 +63,10 @@ void MotionsWriter::add(const std::string& name, const Motion& motion) {
     std::vector<float> turned(motion.values.size());
     float* to = turned.data();
     for (std::size_t p = 0; p < motion.persons; ++p)
-        for (std::size_t d = 0; d < 3; ++d)
-            for (std::size_t k = 0; k < motion.joints; ++k)
+        for (std::size_t d = 0; d < motion.numbers; ++d)
+            for (std::size_t k = 0; k < motion.nodes; ++k)
                 for (std::size_t t = 0; t < motion.frames; ++t) *to++ = motion.at(t, p, k)[d];
-    file_->writer.write<float>(name, {motion.persons * 3, motion.joints, motion.frames}, turned);
+    file_->writer.write<float>(name, {motion.persons * motion.numbers, motion.nodes, motion.frames}, turned);
 }
 
 void MotionsWriter::describe(const Subjects& subjects) {

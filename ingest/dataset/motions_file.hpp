@@ -1,4 +1,5 @@
-// Motions in the public ActFormer layout: an HDF5 file with one float32 dataset (P*C, K, T) a clip.
+// Motions in the public ActFormer layout: an HDF5 file with one float32 dataset (P*C, K, T) a clip: of P persons, each with K
+// nodes of C numbers, as the motions' representation has them.
 #pragma once
 
 #include <filesystem>
@@ -12,14 +13,19 @@
 
 namespace actformer::ingest {
 
-/// Reads motions one at a time. Throws Error on a file that is not in the public layout.
+/// Reads motions one at a time. Throws Error for a file that is not in the public layout.
 class MotionsFile {
   public:
-    explicit MotionsFile(const std::filesystem::path& path);
+    /// `otherwise` is the representation of a file that does not tell its own.
+    explicit MotionsFile(const std::filesystem::path& path, Representation otherwise = Representation::limb);
+    MotionsFile(MotionsFile&& other) noexcept;
     ~MotionsFile();
 
     const std::vector<std::string>& names() const { return names_; }  ///< sorted
     Motion read(const std::string& name) const;
+
+    Representation representation() const { return representation_; }
+    bool tells_representation() const { return tells_representation_; }
 
     /// Whose motions they are, where the file tells.
     const std::optional<Subjects>& subjects() const { return subjects_; }
@@ -28,6 +34,8 @@ class MotionsFile {
     struct Handle;
     std::filesystem::path path_;
     std::unique_ptr<Handle> file_;
+    Representation representation_;
+    bool tells_representation_ = false;
     std::vector<std::string> names_;
     std::optional<Subjects> subjects_;
 };

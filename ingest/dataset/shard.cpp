@@ -37,13 +37,14 @@ void ShardBuilder::image(const std::string& settings, const std::string& fingerp
         motion.push_back(piece.motion);
         bones.insert(bones.end(), piece.bone_length.begin(), piece.bone_length.end());
     }
-    const hsize_t n = clips_.size(), p = header_->persons, k = header_->topology.joints();
-    hdf5::Writer file(frames_ * p * k * 3 * sizeof(float));
+    const hsize_t n = clips_.size(), p = header_->persons, joints = header_->topology.joints();
+    hdf5::Writer file(frames_ * header_->frame_values() * sizeof(float));
     file.attribute("program", "actformer " ACTFORMER_VERSION);
     file.attribute("dataset", header_->name);
     file.attribute("settings", settings);
     file.attribute("source", fingerprint);
-    file.write_pieces("motion", {frames_, p, k, 3}, motion, frames_a_chunk);
+    file.write_pieces("motion", {frames_, p, header_->nodes(), header_->representation.numbers()}, motion,
+                      frames_a_chunk);
     file.write<std::uint64_t>("clip/offset", {n},
                               column<std::uint64_t>(clips_, [](auto& c) { return c.offset; }));
     file.write<std::uint32_t>("clip/length", {n},
@@ -54,7 +55,7 @@ void ShardBuilder::image(const std::string& settings, const std::string& fingerp
     for (std::size_t f = 0; f < header_->fields.size(); ++f)
         file.write_strings("clip/" + header_->fields[f],
                            column<std::string>(clips_, [f](auto& c) { return c.fields[f]; }));
-    file.write<float>("clip/bone_length", {n, p, k}, bones);
+    file.write<float>("clip/bone_length", {n, p, joints}, bones);
     file.image(use);
 }
 
@@ -62,10 +63,11 @@ std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHea
                              std::uint32_t shard) {
     const hdf5::Reader file(path);
     const auto motion = file.shape("motion");
-    if (motion.size() != 4 || motion[1] != header.persons || motion[2] != header.topology.joints() ||
-        motion[3] != 3)
-        throw Error("{}: 'motion' is not (frames, {}, {}, 3) as dataset.json says", path.string(),
-                    header.persons, header.topology.joints());
+    const auto numbers = header.representation.numbers();
+    if (motion.size() != 4 || motion[1] != header.persons || motion[2] != header.nodes() ||
+        motion[3] != numbers)
+        throw Error("{}: 'motion' is not (frames, {}, {}, {}) as dataset.json says", path.string(),
+                    header.persons, header.nodes(), numbers);
     const auto offsets = file.read<std::uint64_t>("clip/offset");
     const auto lengths = file.read<std::uint32_t>("clip/length"),
                labels = file.read<std::uint32_t>("clip/label");

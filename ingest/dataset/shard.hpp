@@ -1,12 +1,12 @@
-// One shard: an HDF5 file with many clips' motions and metadata (DESIGN 3).
+// One shard: an HDF5 file with many clips' motions and metadata.
 //
-//   motion             (frames, P, K, 3) float32   all clips one after the other; chunked, checksummed
+//   motion             (frames, P, nodes, numbers) float32   all clips one after the other, as their representation has them; chunked, checksummed
 //   clip/offset        (clips)           uint64    first frame
 //   clip/length        (clips)           uint32    frames
 //   clip/label         (clips)           uint32
 //   clip/name          (clips)           string
 //   clip/FIELD         (clips)           string    metadata for the splits, as in clip/performer
-//   clip/bone_length   (clips, P, K)     float32   metres, 0 for the root
+//   clip/bone_length   (clips, P, joints) float32  metres, 0 for the root
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ class ShardBuilder {
   public:
     explicit ShardBuilder(const DatasetHeader& header) : header_(&header) {}
 
-    /// Clips in order; cleaned.motion holds their frames one after the other.
+    /// Clips in order; cleaned.motion holds their frames one after the other, (frames, P, nodes, numbers).
     void add(const std::vector<Clip>& clips, kernels::CleanedBatch cleaned);
 
     std::size_t clips() const { return clips_.size(); }

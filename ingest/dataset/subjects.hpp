@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ingest/dataset/topology.hpp"
+#include "ingest/dataset/body_model.hpp"
 
 namespace actformer::hdf5 {
 class Reader;
@@ -18,10 +18,9 @@ namespace actformer::ingest {
 
 class Dataset;
 
-struct Subjects {
-    Topology topology;
+/// The body model's bone lengths may be missing.
+struct Subjects : BodyModel {
     std::uint32_t persons = 1;
-    std::vector<float> bone_length;  ///< (persons, joints) metres
     std::vector<std::string> classes;
     double fps = 30;
 
@@ -31,11 +30,16 @@ struct Subjects {
 /// Of a dataset, with mean limb lengths over up to 200 clips, evenly chosen. Throws Error where it has no clip.
 Subjects subjects_of(const Dataset& dataset);
 
-/// Attributes `parents`, `joints`, `persons`, `bone_length`, `class_names`, `fps`.
+/// Attributes `representation`, `parents`, `names`, `persons`, `bone_length`, `rest`, `classes`, `fps`; those without
+/// numbers are left out.
 void write_subjects(hdf5::Writer& file, const Subjects& subjects);
 
-/// None where the file was written without. Throws Error, beginning with `where`, where the attributes contradict one
-/// another.
+/// The attribute `representation`; none where the file was written without. Throws Error, beginning with `where`, for one that is
+/// not known.
+std::optional<Representation> read_representation(const hdf5::Reader& file, const std::string& where);
+
+/// None where the file does not tell its `parents`. Where others of the attributes are missing: limbs, joints called by their
+/// number, one person or as many as have bone lengths, 30 frames a second. Throws Error, beginning with `where`, where the attributes contradict one another.
 std::optional<Subjects> read_subjects(const hdf5::Reader& file, const std::string& where);
 
 }  // namespace actformer::ingest

@@ -2,18 +2,23 @@
 
 #include "base/error.hpp"
 
-namespace actformer::eval {
+namespace actformer::ingest {
 
-View load_view(kernels::Device& device, const ingest::Dataset& dataset, const std::string& split,
+View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split,
                const std::function<void(std::size_t, std::size_t)>& progress) {
     auto clips = dataset.split(split);
     if (clips.empty())
         throw Error("{}: split {} holds no clip; actformer inspect lists the splits",
                     dataset.folder().string(), split);
     kernels::ClipTable table;
-    table.persons = dataset.header().persons;
-    table.centre_windows = dataset.header().centre_windows;
-    table.joints = static_cast<std::uint32_t>(dataset.header().topology.joints());
+    const auto& header = dataset.header();
+    table.persons = header.persons;
+    table.nodes = header.nodes();
+    table.numbers = header.representation.numbers();
+    if (header.centre_windows) {
+        const auto moving = header.representation.moving(table.nodes);
+        table.centring = kernels::Centring{moving.root, moving.first, moving.count};
+    }
     for (const auto c : clips) {
         const auto& clip = dataset.clips()[c];
         if (clip.frames == 0) throw Error("{}: clip {} has no frames", dataset.folder().string(), clip.name);
@@ -28,4 +33,4 @@ View load_view(kernels::Device& device, const ingest::Dataset& dataset, const st
     return {std::move(clips), std::move(store)};
 }
 
-}  // namespace actformer::eval
+}  // namespace actformer::ingest

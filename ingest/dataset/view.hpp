@@ -7,7 +7,7 @@
 #include "ingest/dataset/dataset.hpp"
 #include "kernels/sampler.hpp"
 
-namespace actformer::eval {
+namespace actformer::ingest {
 
 /// Clips of a split: clip i of the store is dataset.clips()[clips[i]].
 struct View {
@@ -17,7 +17,7 @@ struct View {
 
 /// Reads the clips of `split` ("all" for every clip) onto the device, calling `progress(clips read, of how many)` now and
 /// then. Throws Error for a split that does not exist or holds no clip, and for more frames than the device takes.
-View load_view(kernels::Device& device, const ingest::Dataset& dataset, const std::string& split,
+View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split,
                const std::function<void(std::size_t, std::size_t)>& progress = {});
 
-}  // namespace actformer::eval
+}  // namespace actformer::ingest

@@ -1,7 +1,7 @@
 // Batches of windows out of clips that lie on the device (philox.cl stands before this file).
 //
 // Data layout
-//   motion      (frames, P, K, C)     float  clips one after the other
+//   motion      (frames, P, K, C)     float  K nodes of C numbers, clips one after the other
 //   clip        (clips)               uint4  first frame, frames, label, 0
 //   by_class    (clips)               uint   clips ordered by label
 //   class_first (drawn + 1)           uint   clips of the i-th class that has any: by_class[class_first[i]] ...
@@ -15,8 +15,9 @@
 // a word for the clip and a word for the first frame; blocks from 1 on hold a word for each swap of persons. A number
 // below n is the high half of word * n: its bias, n in 2^32 (for the class in 2^64), is beyond any sample to see.
 //
-// Windows are centred where `share` is 1 / (T * P): the root, joint 0, is taken relative to its mean over the window's frames and
-// persons. 0 leaves it. Sums run in one order and nothing is contracted, so that all devices agree to the bit.
+// Windows are centred where `share` is 1 / (T * P): the position in the first three numbers of node `root`, its mean over the
+// window's frames and persons, is taken from those of `moved` nodes from `first_moved` on. 0 leaves them. Sums run in one order
+// and nothing is contracted, so that all devices agree to the bit.
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -29,26 +30,28 @@ uint shown(uint start, uint t, uint frames) {
 }
 
 // The root's mean over the frames shown and all persons.
-float3 mean_root(global const float* clip, uint start, uint frames, uint window, uint persons, uint joints,
-                 uint channels, float share) {
+float3 mean_root(global const float* clip, uint start, uint frames, uint window, uint persons, uint nodes,
+                 uint numbers, uint root, float share) {
     float3 sum = 0;
     for (uint t = 0; share > 0 && t < window; ++t) {
-        global const float* root = clip + (size_t)shown(start, t, frames) * persons * joints * channels;
-        for (uint p = 0; p < persons; ++p, root += joints * channels) sum += vload3(0, root);
+        global const float* at =
+            clip + (size_t)shown(start, t, frames) * persons * nodes * numbers + root * numbers;
+        for (uint p = 0; p < persons; ++p, at += nodes * numbers) sum += vload3(0, at);
     }
     return sum * share;
 }
 
 // One frame of one sample; four bits of `order` a person say whom of the clip to show.
-void copy_frame(global const float* from, global float* to, uint t, ulong order, float3 centre, uint window,
-                uint persons, uint joints, uint channels) {
+void copy_frame(global const float* from, global float* to, uint t, ulong order, float3 centre,
+                uint first_moved, uint moved, uint window, uint persons, uint nodes, uint numbers) {
     const float offset[3] = {centre.x, centre.y, centre.z};
     for (uint p = 0; p < persons; ++p, order >>= 4) {
-        global const float* body = from + (uint)(order & 15) * joints * channels;
-        for (uint c = 0; c < channels; ++c) {
-            global float* row = to + ((size_t)(p * channels + c) * window + t) * joints;
-            row[0] = c < 3 ? body[c] - offset[c] : body[c];
-            for (uint k = 1; k < joints; ++k) row[k] = body[k * channels + c];
+        global const float* body = from + (uint)(order & 15) * nodes * numbers;
+        for (uint c = 0; c < numbers; ++c) {
+            global float* row = to + ((size_t)(p * numbers + c) * window + t) * nodes;
+            for (uint k = 0; k < nodes; ++k) row[k] = body[k * numbers + c];
+            for (uint k = first_moved; c < 3 && k < first_moved + moved; ++k)
+                row[k] = body[k * numbers + c] - offset[c];
         }
     }
 }
@@ -86,8 +89,9 @@ uint find_class(global const ulong* class_edge, uint drawn, ulong at) {
 kernel void draw(global const float* motion, global const uint4* clip, global const uint* by_class,
                  global const uint* class_first, global const ulong* class_edge, uint drawn, uint seed_low,
                  uint seed_high, uint batch_low, uint batch_high, uint first_sample, uint permute,
-                 float share, uint samples, uint window, uint persons, uint joints, uint channels,
-                 global float* values, global uint* labels, global uint2* picks) {
+                 float share, uint samples, uint window, uint persons, uint nodes, uint numbers, uint root,
+                 uint first_moved, uint moved, global float* values, global uint* labels,
+                 global uint2* picks) {
     const uint t = get_global_id(0), sample = get_global_id(1);
     if (t >= window || sample >= samples) return;
     const uint2 key = (uint2)(seed_low, seed_high);
@@ -102,11 +106,11 @@ kernel void draw(global const float* motion, global const uint4* clip, global co
     const uint start = frames > window ? mul_hi(words.w, frames - window + 1) : 0;
     const ulong order = permute ? draw_order(persons, counter, key) : 0xFEDCBA9876543210UL;
 
-    const size_t row = (size_t)persons * joints * channels;
+    const size_t row = (size_t)persons * nodes * numbers;
     global const float* from = motion + clip[c].x * row;
-    const float3 centre = mean_root(from, start, frames, window, persons, joints, channels, share);
-    copy_frame(from + shown(start, t, frames) * row, values + sample * row * window, t, order, centre, window,
-               persons, joints, channels);
+    const float3 centre = mean_root(from, start, frames, window, persons, nodes, numbers, root, share);
+    copy_frame(from + shown(start, t, frames) * row, values + sample * row * window, t, order, centre,
+               first_moved, moved, window, persons, nodes, numbers);
     if (t == 0) {
         labels[sample] = clip[c].z;
         picks[sample] = (uint2)(c, start);
@@ -115,17 +119,18 @@ kernel void draw(global const float* motion, global const uint4* clip, global co
 
 // One work-item a (frame, sample): sample i shows window[first + i], persons in the clip's order.
 kernel void cut(global const float* motion, global const uint4* clip, global const uint2* windows, uint first,
-                float share, uint samples, uint window, uint persons, uint joints, uint channels,
-                global float* values, global uint* labels, global uint2* picks) {
+                float share, uint samples, uint window, uint persons, uint nodes, uint numbers, uint root,
+                uint first_moved, uint moved, global float* values, global uint* labels,
+                global uint2* picks) {
     const uint t = get_global_id(0), sample = get_global_id(1);
     if (t >= window || sample >= samples) return;
     const uint2 pick = windows[first + sample];
     const uint4 c = clip[pick.x];
-    const size_t row = (size_t)persons * joints * channels;
+    const size_t row = (size_t)persons * nodes * numbers;
     global const float* from = motion + c.x * row;
-    const float3 centre = mean_root(from, pick.y, c.y, window, persons, joints, channels, share);
+    const float3 centre = mean_root(from, pick.y, c.y, window, persons, nodes, numbers, root, share);
     copy_frame(from + shown(pick.y, t, c.y) * row, values + sample * row * window, t, 0xFEDCBA9876543210UL,
-               centre, window, persons, joints, channels);
+               centre, first_moved, moved, window, persons, nodes, numbers);
     if (t == 0) {
         labels[sample] = c.z;
         picks[sample] = pick;

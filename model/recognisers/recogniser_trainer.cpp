@@ -67,7 +67,7 @@ class Training {
 std::optional<kernels::ClipStore> load_test_split(kernels::Device& device, const ingest::Dataset& dataset,
                                                   const std::string& split) {
     if (split.empty()) return std::nullopt;
-    return eval::load_view(device, dataset, split).store;
+    return ingest::load_view(device, dataset, split).store;
 }
 
 Training::Training(const Config& config, const std::filesystem::path& run, const TrainingEvents& events)
@@ -78,7 +78,7 @@ Training::Training(const Config& config, const std::filesystem::path& run, const
       shape_(network_for(settings_, dataset_.header().topology, dataset_.header().persons,
                          dataset_.header().classes.size(), dataset_.folder().string())),
       opencl_(settings_.opencl),
-      train_clips_(eval::load_view(opencl_, dataset_, settings_.train_split).store),
+      train_clips_(ingest::load_view(opencl_, dataset_, settings_.train_split).store),
       test_clips_(load_test_split(opencl_, dataset_, settings_.test_split)),
       feed_(train_clips_, {settings_.seed, kernels::ClassSampling::plain, true}, settings_.batch,
             settings_.frames),
@@ -130,7 +130,7 @@ void Training::resume() {
 }
 
 at::Tensor Training::to_tensor(const Windows& windows) const {
-    return values_of(windows, shape_.channels, settings_.frames, train_clips_.table().joints, device_)
+    return values_of(windows, shape_.channels, settings_.frames, train_clips_.table().nodes, device_)
         .to(torch_type(settings_.precision));
 }
 

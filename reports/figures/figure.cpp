@@ -54,16 +54,9 @@ void check(const Figure& figure) {
     check_joints(figure);
 }
 
-Figure figure_of(const ingest::Motion& motion, const ingest::Topology& topology,
-                 const std::vector<float>& bone_length, double fps, std::string title) {
-    if (motion.joints != topology.joints())
-        throw Error("{} has {} joints, and the skeleton to draw it with {}", motion.name, motion.joints,
-                    topology.joints());
-    if (bone_length.size() != std::size_t{motion.persons} * motion.joints)
-        throw Error("{}: {} limb lengths for {} persons of {} joints", motion.name, bone_length.size(),
-                    motion.persons, motion.joints);
-    Figure figure{std::move(title), topology, motion.persons, motion.frames, fps, {}, {}, {}};
-    figure.joints = ingest::joint_positions(motion, topology, bone_length);
+Figure figure_of(const ingest::Motion& motion, const ingest::BodyModel& body, double fps, std::string title) {
+    Figure figure{std::move(title), body.topology, motion.persons, motion.frames, fps, {}, {}, {}};
+    figure.joints = ingest::joint_positions(motion, body);
     check(figure);
     return figure;
 }
@@ -76,11 +69,12 @@ Figure figure_of(const ingest::SkeletonFile& file, std::string title) {
     Figure figure{
         std::move(title), topology, persons, file.frames, 30, {}, std::vector<std::uint8_t>(bodies, 0), {}};
     figure.joints.resize(bodies * k * 3);
-    const std::vector<float> whole(k, 1.0F);  // raw limbs have their lengths still
+    const ingest::BodyModel whole{
+        {}, topology, std::vector<float>(k, 1.0F), {}};  // raw limbs have their lengths still
     for (std::uint32_t p = 0; p < persons; ++p) {
         const auto& body = file.bodies[p];
-        const ingest::Motion motion{"", static_cast<std::uint32_t>(body.times.size()), 1, k, body.limbs};
-        const auto joints = ingest::joint_positions(motion, topology, whole);
+        const ingest::Motion motion{"", static_cast<std::uint32_t>(body.times.size()), 1, k, 3, body.limbs};
+        const auto joints = ingest::joint_positions(motion, whole);
         for (std::size_t i = 0; i < body.times.size(); ++i) {
             const std::size_t at = std::size_t{body.times[i]} * persons + p;
             figure.seen[at] = 1;

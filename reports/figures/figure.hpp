@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ingest/dataset/motion.hpp"
-#include "ingest/dataset/topology.hpp"
+#include "ingest/dataset/body_model.hpp"
 #include "ingest/formats/ntu/skeleton_file.hpp"
 
 namespace actformer::reports {
@@ -39,9 +38,8 @@ constexpr std::uint32_t most_persons = 64;
 /// km away.
 void check(const Figure& figure);
 
-/// `bone_length` (persons, K) in metres. Throws Error as check() does.
-Figure figure_of(const ingest::Motion& motion, const ingest::Topology& topology,
-                 const std::vector<float>& bone_length, double fps, std::string title);
+/// Throws Error as check() does, and where the motion does not fit the body model.
+Figure figure_of(const ingest::Motion& motion, const ingest::BodyModel& body, double fps, std::string title);
 
 /// A raw capture, every body in it a person that is seen in some frames. Throws Error as check() does.
 Figure figure_of(const ingest::SkeletonFile& file, std::string title);

@@ -103,7 +103,7 @@ std::vector<std::size_t> picks_of(const ingest::Dataset& dataset, const Wanted& 
 Figure figure_of_clip(const ingest::Dataset& dataset, std::size_t clip) {
     const auto& header = dataset.header();
     const auto& entry = dataset.clips()[clip];
-    auto figure = figure_of(dataset.motion(clip), header.topology, dataset.bone_length(clip), header.fps,
+    auto figure = figure_of(dataset.motion(clip), dataset.body(clip), header.fps,
                             title_of(entry.name, entry.label, header.classes));
     figure.label = entry.label;
     return figure;
@@ -144,45 +144,64 @@ std::vector<Figure> figures_of_datasets(const fs::path& path, const Wanted& want
     return figures;
 }
 
-/// What a motions file is drawn with, and the dataset that told it, if one did.
+/// A motions file and what it is drawn with; the dataset that told it, if one did.
 struct Drawn {
     std::optional<ingest::Dataset> dataset;
+    ingest::MotionsFile file;
     ingest::Subjects subjects;
-
-    /// (persons, K) metres; persons beyond those known are as long as the first.
-    std::vector<float> lengths(std::uint32_t persons) const {
-        const auto k = static_cast<std::ptrdiff_t>(subjects.topology.joints());
-        std::vector<float> all;
-        for (std::uint32_t p = 0; p < persons; ++p) {
-            const auto from = subjects.bone_length.begin() + (p < subjects.persons ? p * k : 0);
-            all.insert(all.end(), from, from + k);
-        }
-        return all;
-    }
 };
 
-/// From --bones where it is given, else from the file itself, else NTU's skeleton with usual lengths.
-Drawn body_for(const ingest::MotionsFile& file, const fs::path& path, const Wanted& wanted) {
-    const auto joints = file.read(file.names()[0]).joints;
-    Drawn drawn;
-    std::string source = path.string();
-    if (!wanted.bones.empty()) {
-        source = wanted.bones.string();
-        drawn.dataset.emplace(wanted.bones);
-        drawn.subjects = ingest::subjects_of(*drawn.dataset);
-    } else if (file.subjects()) {
-        drawn.subjects = *file.subjects();
-    } else if (joints == ingest::ntu25().joints()) {
-        drawn.subjects.topology = ingest::ntu25();
-        drawn.subjects.bone_length = usual_bone_lengths(drawn.subjects.topology);
-    } else {
-        throw Error(
-            "{} does not say how its {} joints hang together; give --bones DATASET with the same skeleton",
-            path.string(), joints);
+/// Limbs in a file that does not call them so may be something else.
+void check_limbs(const ingest::Motion& motion, const fs::path& path) {
+    if (has_unit_limbs(motion)) return;
+    throw Error(
+        "{}: '{}' holds no limb vectors, as their lengths are not 1; where they are joint positions, set the "
+        "file's "
+        "attribute representation to xyz, or make a dataset of them with actformer ingest motions",
+        path.string(), motion.name);
+}
+
+/// From --bones where it is given, else from the file itself, else NTU's skeleton; usual lengths where none are known.
+ingest::Subjects subjects_for(const Drawn& drawn, const fs::path& path) {
+    const auto how = drawn.file.representation();
+    if (drawn.dataset) {
+        if (const auto& header = drawn.dataset->header(); header.representation != how)
+            throw Error("{} has motions in {}, and {} is in {}; give the --bones it was trained on",
+                        path.string(), how.name(), drawn.dataset->folder().string(),
+                        header.representation.name());
+        return ingest::subjects_of(*drawn.dataset);
     }
-    if (drawn.subjects.topology.joints() != joints)
-        throw Error("{} has motions of {} joints, and {} says {}; give the --bones it was trained on",
-                    path.string(), joints, source, drawn.subjects.topology.joints());
+    ingest::Subjects subjects;
+    if (drawn.file.subjects()) {
+        subjects = *drawn.file.subjects();
+    } else {
+        subjects.representation = how;
+        subjects.topology = ingest::ntu25();
+        const auto nodes = drawn.file.read(drawn.file.names()[0]).nodes;
+        if (how == ingest::Representation::rot6d || nodes != subjects.topology.joints())
+            throw Error(
+                "{} does not say how its {} nodes hang together; give --bones DATASET with the same skeleton",
+                path.string(), nodes);
+    }
+    if (subjects.bone_length.empty()) subjects.bone_length = usual_bone_lengths(subjects.topology);
+    return subjects;
+}
+
+Drawn drawn_from(const fs::path& path, const Wanted& wanted) {
+    std::optional<ingest::Dataset> dataset;
+    if (!wanted.bones.empty()) dataset.emplace(wanted.bones);
+    ingest::MotionsFile file(path, dataset ? dataset->header().representation
+                                           : ingest::Representation(ingest::Representation::limb));
+    Drawn drawn{std::move(dataset), std::move(file), {}};
+    const auto first = drawn.file.read(drawn.file.names()[0]);
+    if (drawn.file.representation() == ingest::Representation::limb && !drawn.file.tells_representation())
+        check_limbs(first, path);
+    drawn.subjects = subjects_for(drawn, path);
+    const auto wanted_nodes = drawn.subjects.representation.nodes(drawn.subjects.topology);
+    if (wanted_nodes != first.nodes)
+        throw Error("{} has motions of {} nodes, and {} says {}; give the --bones it was trained on",
+                    path.string(), first.nodes, drawn.dataset ? wanted.bones.string() : path.string(),
+                    wanted_nodes);
     return drawn;
 }
 
@@ -201,10 +220,8 @@ std::optional<std::uint32_t> label_of(const std::string& name, const Drawn& draw
 std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wanted) {
     if (wanted.split != "all")
         throw Error("{} is a motions file and has no splits; leave --split out", path.string());
-    const ingest::MotionsFile file(path);
-    const auto& names = file.names();
-    if (names.empty()) throw Error("{} has no motions in it", path.string());
-    const auto drawn = body_for(file, path, wanted);
+    const auto drawn = drawn_from(path, wanted);
+    const auto& names = drawn.file.names();
     const auto& subjects = drawn.subjects;
 
     std::vector<std::size_t> picks;
@@ -223,10 +240,10 @@ std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wante
     }
     std::vector<Figure> figures;
     for (const auto i : picks) {
-        const auto motion = file.read(names[i]);
+        const auto motion = drawn.file.read(names[i]);
         const auto label = label_of(names[i], drawn);
-        figures.push_back(figure_of(motion, subjects.topology, drawn.lengths(motion.persons), subjects.fps,
-                                    title_of(names[i], label, subjects.classes)));
+        figures.push_back(
+            figure_of(motion, subjects, subjects.fps, title_of(names[i], label, subjects.classes)));
         figures.back().label = label;
     }
     return figures;

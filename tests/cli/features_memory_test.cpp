@@ -39,7 +39,7 @@ struct Memory : testing::Test {
         ingest::MotionsWriter writer(dir / "m.h5");
         std::mt19937 random(1);
         std::normal_distribution<float> normal;
-        ingest::Motion motion{"", length, 1, 25, {}};
+        ingest::Motion motion{"", length, 1, 25, 3, {}};
         motion.values.resize(std::size_t{length} * 25 * 3);
         for (std::uint32_t i = 0; i < count; ++i) {
             for (auto& v : motion.values) v = normal(random);

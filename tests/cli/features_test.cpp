@@ -23,7 +23,7 @@ namespace {
 ingest::Motion made_motion(std::uint32_t frames, std::uint32_t persons, std::uint32_t joints, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<float> normal;
-    ingest::Motion motion{"", frames, persons, joints, {}};
+    ingest::Motion motion{"", frames, persons, joints, 3, {}};
     motion.values.resize(std::size_t{frames} * persons * joints * 3);
     for (auto& v : motion.values) v = normal(random);
     return motion;

@@ -133,7 +133,7 @@ TEST_F(IngestNtu, DrawsABodyBackFromLimbsAndBoneLengths) {
     clip("S001C001P001R001A001", skeleton_text(30, {always_seen("a", motion)}));
     ASSERT_EQ(ingest().exit, 0);
     const Dataset dataset(fs::path(out()) / "ntu-1p");
-    const auto joints = joint_positions(dataset.motion(0), dataset.header().topology, dataset.bone_length(0));
+    const auto joints = joint_positions(dataset.motion(0), dataset.body(0));
     for (std::size_t j = 0; j < 25; ++j)
         for (std::size_t d = 0; d < 3; ++d)  // unit limbs are short by 1e-4 m of their length
             EXPECT_NEAR(joints[j * 3 + d] - joints[d], motion[0][j][d] - motion[0][0][d], 1e-3);

@@ -25,7 +25,7 @@ namespace {
 ingest::Motion made_motion(std::uint32_t frames, std::uint32_t persons, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<float> normal;
-    ingest::Motion motion{"", frames, persons, 25, {}};
+    ingest::Motion motion{"", frames, persons, 25, 3, {}};
     motion.values.resize(std::size_t{frames} * persons * 25 * 3);
     for (auto& v : motion.values) v = normal(random);
     return motion;
@@ -156,9 +156,9 @@ void group_features(const TempDir& dir, const std::vector<ingest::Motion>& group
     ingest::MotionsWriter writer(dir / "apart.h5");
     for (std::size_t i = 0; i < groups.size(); ++i)
         for (std::uint32_t p = 0; p < groups[i].persons; ++p) {
-            ingest::Motion alone{"", groups[i].frames, 1, groups[i].joints, {}};
+            ingest::Motion alone{"", groups[i].frames, 1, groups[i].nodes, 3, {}};
             for (std::uint32_t t = 0; t < alone.frames; ++t)
-                for (std::uint32_t k = 0; k < alone.joints; ++k)
+                for (std::uint32_t k = 0; k < alone.nodes; ++k)
                     for (std::size_t d = 0; d < 3; ++d) alone.values.push_back(groups[i].at(t, p, k)[d]);
             writer.add(fmt::format("{:06}_{}", i, p), alone);
         }
@@ -195,7 +195,7 @@ TEST_F(Score, OfGroupsSeesEveryPersonAlone) {
     for (std::size_t c = 0; c < data.clips().size(); ++c) {
         const auto clip = data.motion(c);
         for (std::uint32_t first = 0; first + 20 <= clip.frames; first += 20) {
-            ingest::Motion window{"", 20, 2, 25, {}};
+            ingest::Motion window{"", 20, 2, 25, 3, {}};
             const auto begin = clip.values.begin() + first * 150;
             window.values.assign(begin, begin + 20 * 150);
             windows.push_back(window);

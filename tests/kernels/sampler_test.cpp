@@ -1,4 +1,4 @@
-// The sampler: published vectors of the generator, and the properties that DESIGN 4.3 asks of batches.
+// The sampler: published vectors of the generator, and the properties of batches.
 #include "kernels/sampler.hpp"
 
 #include <gtest/gtest.h>
@@ -262,61 +262,81 @@ TEST(Windows, CutClipsOneAfterTheOther) {
     EXPECT_EQ(seen, windows.size());
 }
 
-/// What a batch holds of joint `k`, coordinate `d`, of the p-th person shown, in frame t of sample i.
-float shown_value(const Batch::View& view, std::uint32_t persons, std::uint32_t window, std::size_t i,
-                  std::size_t t, std::size_t p, std::size_t k, std::size_t d) {
-    return view.values[(((i * persons + p) * 3 + d) * window + t) * 4 + k];
+namespace {
+
+constexpr std::uint32_t persons = 2, window = 8, samples = 32;
+
+/// A store of clips of 2 persons of 4 nodes, their values far from centred.
+ClipStore uncentred(Device& device, std::uint32_t numbers, const std::optional<Centring>& centring) {
+    ClipStore store(device, {persons, 4, numbers, {20, 5, 8}, {0, 1, 1}, centring});
+    const std::size_t row = std::size_t{persons} * 4 * numbers;
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::vector<float> values;
+        for (std::size_t i = 0; i < store.table().frames[c] * row; ++i)
+            values.push_back(std::sin(0.37F * static_cast<float>(i + 50 * c)) + static_cast<float>(i % 12));
+        store.load(c, values);
+    }
+    return store;
 }
 
-TEST(Sampler, CentresTheRootOverAWindowWhereAsked) {
-    constexpr std::uint32_t persons = 2, window = 8, samples = 32;
+/// What a batch holds of node `k`, number `d`, of the p-th person shown, in frame t of sample i.
+struct Shown {
+    Batch::View view;
+    std::uint32_t numbers;
+
+    float operator()(std::size_t i, std::size_t t, std::size_t p, std::size_t k, std::size_t d) const {
+        return view.values[(((i * persons + p) * numbers + d) * window + t) * 4 + k];
+    }
+    double mean(std::size_t i, std::size_t k, std::size_t d) const {
+        double sum = 0;
+        for (std::size_t t = 0; t < window; ++t)
+            for (std::size_t p = 0; p < persons; ++p) sum += (*this)(i, t, p, k, d);
+        return sum / (window * persons);
+    }
+};
+
+void expect_centred(std::uint32_t numbers, const Centring& centring) {
     Device device;
-    ClipTable table{persons, 4, 3, {20, 5, 8}, {0, 1, 1}};
-    ClipStore plain(device, table);
-    table.centre_windows = true;
-    ClipStore centred(device, table);
-    for (auto* store : {&plain, &centred})
-        for (std::size_t c = 0; c < 3; ++c) {
-            std::vector<float> values;
-            for (std::size_t i = 0; i < std::size_t{table.frames[c]} * persons * 12; ++i)
-                values.push_back(std::sin(0.37F * static_cast<float>(i + 50 * c)) +
-                                 static_cast<float>(i % 12));
-            store->load(c, values);
-        }
-    const SamplerOptions options{.seed = 3};
+    const auto plain = uncentred(device, numbers, {}), centred = uncentred(device, numbers, centring);
     Batch all(plain, samples, window), moved(centred, samples, window);
-    Sampler(plain, options).draw(0, all);
-    Sampler(centred, options).draw(0, moved);
-    const auto before = all.map(), after = moved.map();
+    Sampler(plain, {.seed = 3}).draw(0, all);
+    Sampler(centred, {.seed = 3}).draw(0, moved);
+    const Shown before{all.map(), numbers}, after{moved.map(), numbers};
     for (std::size_t i = 0; i < samples; ++i)
-        for (std::size_t d = 0; d < 3; ++d) {
-            const auto at = [&](const Batch::View& view, std::size_t t, std::size_t p, std::size_t k) {
-                return shown_value(view, persons, window, i, t, p, k, d);
-            };
-            double mean = 0;
+        for (std::size_t d = 0; d < numbers; ++d) {
+            const double mean = before.mean(i, centring.root, d);
             for (std::size_t t = 0; t < window; ++t)
                 for (std::size_t p = 0; p < persons; ++p)
-                    mean += at(before, t, p, 0) / (1.0 * window * persons);
-            for (std::size_t t = 0; t < window; ++t)
-                for (std::size_t p = 0; p < persons; ++p) {
-                    // 16 float32 additions of numbers up to 13
-                    EXPECT_NEAR(at(after, t, p, 0), at(before, t, p, 0) - mean, 2e-5);
-                    for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(at(after, t, p, k), at(before, t, p, k));
-                }
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        const bool moves =
+                            d < 3 && k >= centring.first && k < centring.first + centring.count;
+                        // 16 float32 additions of numbers up to 13; what does not move stays to the bit
+                        ASSERT_NEAR(after(i, t, p, k, d), before(i, t, p, k, d) - (moves ? mean : 0),
+                                    moves ? 2e-5 : 0)
+                            << "node " << k << ", number " << d;
+                    }
         }
 
-    const auto windows = consecutive_windows(table.frames, window);
+    const auto windows = consecutive_windows(centred.table().frames, window);
     Batch cut(centred, 4, window);
     WindowCutter(centred, windows).cut(0, cut);
-    const auto view = cut.map();
-    for (std::size_t i = 0; i < view.labels.size(); ++i)
-        for (std::size_t d = 0; d < 3; ++d) {
-            double mean = 0;
-            for (std::size_t t = 0; t < window; ++t)
-                for (std::size_t p = 0; p < persons; ++p)
-                    mean += shown_value(view, persons, window, i, t, p, 0, d);
-            EXPECT_NEAR(mean / (window * persons), 0, 2e-6);
-        }
+    const Shown view{cut.map(), numbers};
+    for (std::size_t i = 0; i < view.view.labels.size(); ++i)
+        for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR(view.mean(i, centring.root, d), 0, 2e-6);
+}
+
+}  // namespace
+
+TEST(Sampler, CentresTheRootOverAWindowWhereAsked) {
+    expect_centred(3, {0, 0, 1});  // limb vectors: the root alone
+}
+
+TEST(Sampler, CentresTheTranslationBehindRotations) {
+    expect_centred(6, {3, 3, 1});
+}
+
+TEST(Sampler, CentresAllJointsByTheirRoot) {
+    expect_centred(3, {0, 0, 4});
 }
 
 TEST(ClipStore, RefusesWhatCannotBeDrawn) {
@@ -329,4 +349,8 @@ TEST(ClipStore, RefusesWhatCannotBeDrawn) {
                                              std::vector<std::uint32_t>(1000)}),
                  Error)
         << "more frames than a device holds";
+    for (const auto& none : {Centring{4, 0, 1}, Centring{0, 3, 2}, Centring{0, 5, 1}})
+        EXPECT_THROW(ClipStore(device, ClipTable{1, 4, 3, {5}, {0}, none}), Error) << "no such node";
+    EXPECT_THROW(ClipStore(device, ClipTable{1, 4, 2, {5}, {0}, Centring{}}), Error)
+        << "no position in two numbers";
 }

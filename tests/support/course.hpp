@@ -20,7 +20,7 @@ struct Course {
 /// A copy: a feed's own memory is good for one batch.
 inline at::Tensor copied(const model::Windows& windows, const kernels::ClipTable& table,
                          std::uint32_t frames) {
-    return model::values_of(windows, table.persons * table.channels, frames, table.joints, at::kCPU).clone();
+    return model::values_of(windows, table.persons * table.numbers, frames, table.nodes, at::kCPU).clone();
 }
 
 inline void draw(const kernels::ClipStore& clips, const model::RecogniserSettings& settings, Course& course) {
@@ -54,13 +54,13 @@ inline Course course_of(const model::RecogniserSettings& settings) {
     const auto shape = model::network_for(settings, header.topology, header.persons, header.classes.size(),
                                           dataset.folder().string());
     kernels::Device device(settings.opencl);
-    const auto clips = eval::load_view(device, dataset, settings.train_split);
+    const auto clips = ingest::load_view(device, dataset, settings.train_split);
     Course course{{shape, settings.seed, at::kCPU, model::torch_type(settings.precision)},
                   {},
                   {},
                   (clips.clips.size() + settings.batch - 1) / settings.batch};
     draw(clips.store, settings, course);
-    show(eval::load_view(device, dataset, settings.test_split).store, settings, course);
+    show(ingest::load_view(device, dataset, settings.test_split).store, settings, course);
     return course;
 }
 

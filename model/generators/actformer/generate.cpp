@@ -44,7 +44,8 @@ ingest::Motion motion_of(const at::Tensor& made, std::int64_t sample, std::uint3
     ingest::Motion motion;
     motion.persons = persons;
     motion.frames = static_cast<std::uint32_t>(one.size(1));
-    motion.joints = static_cast<std::uint32_t>(one.size(2));
+    motion.nodes = static_cast<std::uint32_t>(one.size(2));
+    motion.numbers = static_cast<std::uint32_t>(one.size(0)) / persons;
     const auto values =
         one.view({persons, -1, one.size(1), one.size(2)}).permute({2, 0, 3, 1}).contiguous();  // (T, P, K, D)
     const auto* first = values.data_ptr<float>();
@@ -58,7 +59,6 @@ void describe(ingest::MotionsWriter& writer, const GenerateRequest& request, con
     writer.note("generator", file.checksum);
     writer.note("configuration", file.configuration.yaml());
     writer.note("seed", std::to_string(request.seed));
-    writer.note("representation", "limb");
 }
 
 GenerateSummary generate_here(const GenerateRequest& request,

@@ -53,7 +53,6 @@ void save_generator(const fs::path& path, const std::vector<Array>& arrays, cons
     auto file = weights_writer(arrays);
     file.attribute("model", std::string("generator"));
     file.attribute("configuration", config.yaml());
-    file.attribute("representation", std::string("limb"));
     ingest::write_subjects(file, subjects);
     for (const auto& [name, text] : notes) file.attribute(name, text);
     file.image([&](std::string_view image) { write_whole(path, image); });

@@ -128,7 +128,7 @@ Training::Training(const Config& config, const std::filesystem::path& run, bool 
       device_(torch_device(device_for(settings_, place_in(data_parallel)))),
       processes_(connect(data_parallel, device_)),
       opencl_(settings_.opencl),
-      clips_(eval::load_view(opencl_, dataset_, settings_.train_split).store),
+      clips_(ingest::load_view(opencl_, dataset_, settings_.train_split).store),
       feed_(clips_, sampling(settings_, processes_->place()), settings_.batch, settings_.frames),
       gan_(settings_, generator_settings_, discriminator_for(config, dataset_), device_, *processes_),
       health_(settings_.loss) {

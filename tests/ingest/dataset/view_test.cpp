@@ -31,7 +31,7 @@ double first_window_mean(const std::string& options) {
                                       (dir / "walks").string() + " --name '{action}_{index}' " + options);
     EXPECT_EQ(result.exit, 0) << result.output;
     kernels::Device device;
-    const auto view = eval::load_view(device, ingest::Dataset(dir / "walks"), "all");
+    const auto view = ingest::load_view(device, ingest::Dataset(dir / "walks"), "all");
     kernels::Batch batch(view.store, 1, 60);
     kernels::WindowCutter(view.store, kernels::consecutive_windows(view.store.table().frames, 60))
         .cut(0, batch);

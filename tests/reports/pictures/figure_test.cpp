@@ -67,16 +67,20 @@ TEST(Figure, RefusesSizesThatDisagree) {
 }
 
 TEST(Figure, ComesFromLimbs) {
-    ingest::Motion motion{"clip", 2, 1, 2, {0, 1, 0, 0, 1, 0, 5, 1, 0, 1, 0, 0}};
+    ingest::Motion motion{"clip", 2, 1, 2, 3, {0, 1, 0, 0, 1, 0, 5, 1, 0, 1, 0, 0}};
     const ingest::Topology topology{{"root", "tip"}, {-1, 0}};
-    const auto figure = figure_of(motion, topology, {0, 0.5F}, 25, "two joints");
+    const auto figure = figure_of(motion, {{}, topology, {0, 0.5F}, {}}, 25, "two joints");
     EXPECT_FLOAT_EQ(figure.at(0, 0, 1)[1], 1.5F);
     EXPECT_FLOAT_EQ(figure.at(1, 0, 1)[0], 5.5F);
     EXPECT_DOUBLE_EQ(figure.seconds(), 0.08);
 
-    EXPECT_NE(error_of([&] { figure_of(motion, topology, {0.5F}, 25, ""); }).find("1 limb lengths"),
+    EXPECT_NE(error_of([&] {
+                  figure_of(motion, {{}, topology, {0.5F}, {}}, 25, "");
+              }).find("1 limb lengths"),
               std::string::npos);
-    EXPECT_NE(error_of([&] { figure_of(motion, ingest::ntu25(), {}, 25, ""); }).find("2 joints"),
+    EXPECT_NE(error_of([&] {
+                  figure_of(motion, {{}, ingest::ntu25(), {}, {}}, 25, "");
+              }).find("2 nodes"),
               std::string::npos);
 }
 

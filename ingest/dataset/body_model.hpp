@@ -1,0 +1,38 @@
+// What makes joint positions of a motion's numbers.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "ingest/dataset/motion.hpp"
+#include "ingest/dataset/representation.hpp"
+
+namespace actformer::ingest {
+
+struct BodyModel {
+    Representation representation;
+    Topology topology;
+    std::vector<float> bone_length;  ///< (persons, joints) metres, 0 for the root; limbs need it
+    std::vector<float>
+        rest;  ///< (joints, 3) metres from the parent in the rest pose, the root's from the origin; rotations need it
+
+    bool operator==(const BodyModel&) const = default;
+};
+
+/// Throws Error, naming the motion, where it has other nodes or numbers than the body model, or the model lacks what the
+/// representation needs.
+void check_fits(const Motion& motion, const BodyModel& body);
+
+/// (frames, persons, joints, 3) joint positions in metres. Limbs: parent + bone length * limb, persons beyond those whose lengths are
+/// known as long as the first. Rotations: forward kinematics of the rest pose, as in SMPL (Loper et al. 2015, equations 2 and 3): the
+/// root turns about its own joint, and the translation comes on top. Throws Error as check_fits does.
+std::vector<float> joint_positions(const Motion& motion, const BodyModel& body);
+
+/// Row-major.
+using Rotation = std::array<double, 9>;
+
+/// The rotation whose first two rows these six numbers are nearest to by Gram and Schmidt: the first row keeps its direction.
+/// Zeros where they have none.
+Rotation rotation_of(const float* six);
+
+}  // namespace actformer::ingest
