@@ -208,7 +208,7 @@ Result measure(kernels::Device& device, const eval::Weights& weights, const kern
 
 void run(const Options& options) {
     kernels::Device device(options.device);
-    const auto weights = options.recogniser.empty() ? eval::random_weights(3, 94, eval::ntu_edges, 20, 1, 0)
+    const auto weights = options.recogniser.empty() ? eval::random_weights(3, 94, eval::ntu_graph(), 1, 0)
                                                     : eval::read_weights(options.recogniser);
     if (options.tune) {
         const auto tiles = eval::tune(device, weights, options.batch, options.frames,

@@ -259,8 +259,8 @@ void check_fits(const Weights& weights, const ingest::Dataset& dataset, bool per
     if (header.topology.joints() != weights.joints())
         throw Error("{}: has {} joints and the recogniser {} takes {}; choose one trained on such a dataset",
                     where, header.topology.joints(), weights.source, weights.joints());
-    const bool ntu = header.topology.parents == ingest::ntu25().parents;
-    if (weights.parents != header.topology.parents && !(ntu && weights.parents == ntu_edges))
+    const auto& parents = weights.graph.parents;
+    if (parents != header.topology.parents && parents != recogniser_graph(header.topology).parents)
         throw Error(
             "{}: its skeleton is another tree than that of the recogniser {}; choose one trained on such a "
             "dataset",

@@ -31,7 +31,7 @@ void fold_graph(const Weights& weights, std::size_t index, FoldedLayer& layer) {
     const auto& importance = weights.at(fmt::format("edge_importance.{}", index));
     const std::size_t in = layer.in, out = layer.out, joints = weights.joints(), square = joints * joints;
 
-    layer.mixing = partition(weights.parents, weights.center);
+    layer.mixing = partition(weights.graph);
     for (std::size_t part = 0; part < 3; ++part)
         for (std::size_t i = 0; i < square; ++i) layer.mixing[part][i] *= importance[part * square + i];
 
@@ -69,8 +69,9 @@ void fold_temporal(const Weights& weights, std::size_t index, FoldedLayer& layer
 }
 
 void fold_residual(const Weights& weights, std::size_t index, FoldedLayer& layer) {
-    layer.identity_residual = index > 0 && !weights.has_residual_convolution(index);
-    if (!weights.has_residual_convolution(index)) return;
+    const auto residual = stgcn_layer(weights, index).residual;
+    layer.identity_residual = residual == StgcnLayer::Residual::identity;
+    if (residual != StgcnLayer::Residual::convolution) return;
     const auto prefix = layer_prefix(index);
     const auto affine = norm(weights, prefix + "residual.1.");
     const auto &weight = weights.at(prefix + "residual.0.weight"),
@@ -91,10 +92,11 @@ FoldedNetwork fold(const Weights& weights) {
     network.scale = std::move(input.scale);
     network.shift = std::move(input.shift);
     for (std::size_t i = 0; i < stgcn_layers; ++i) {
+        const auto shape = stgcn_layer(weights, i);
         FoldedLayer layer;
-        layer.in = weights.width_before(i);
-        layer.out = weights.widths[i];
-        layer.stride = stgcn_strides[i];
+        layer.in = shape.in;
+        layer.out = shape.out;
+        layer.stride = shape.stride;
         fold_graph(weights, i, layer);
         fold_temporal(weights, i, layer);
         fold_residual(weights, i, layer);

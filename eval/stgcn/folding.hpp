@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "eval/stgcn/partition.hpp"
+#include "eval/stgcn/graph.hpp"
 #include "eval/stgcn/weights.hpp"
 
 namespace actformer::eval {

@@ -384,36 +384,36 @@ std::uint32_t Recogniser::classes() const {
     return network_->classes;
 }
 
-double direct_operations(const Weights& weights, std::uint32_t frames) {
-    double sum = 2.0 * weights.features() * weights.classes;
+double direct_operations(const StgcnShape& shape, std::uint32_t frames) {
+    double sum = 2.0 * shape.features() * shape.classes;
     for (std::size_t i = 0; i < stgcn_layers; ++i) {
-        const double in = weights.width_before(i), out = weights.widths[i], joints = weights.joints();
-        const auto after = kernels::strided(frames, stgcn_strides[i]);
+        const auto layer = stgcn_layer(shape, i);
+        const double in = layer.in, out = layer.out, joints = shape.joints();
+        const auto after = kernels::strided(frames, layer.stride);
         sum += 2 * joints * frames * 3 * in * out + 2 * joints * after * stgcn_taps * out * out;
-        if (weights.has_residual_convolution(i)) sum += 2 * joints * after * in * out;
+        if (layer.residual == StgcnLayer::Residual::convolution) sum += 2 * joints * after * in * out;
         frames = after;
     }
     return sum;
 }
 
-double multiplied_operations(const Weights& weights, std::uint32_t frames) {
-    const auto parts = partition(weights.parents, weights.center);
+double multiplied_operations(const StgcnShape& shape, std::uint32_t frames) {
     double panels = 0;
-    for (const auto& part : parts)
-        for (std::size_t w = 0; w < weights.joints(); ++w) {
+    for (const auto& part : partition(shape.graph))
+        for (std::size_t w = 0; w < shape.joints(); ++w) {
             bool any = false;
-            for (std::size_t v = 0; v < weights.joints(); ++v)
-                any = any || part[v * weights.joints() + w] != 0;
+            for (std::size_t v = 0; v < shape.joints(); ++v) any = any || part[v * shape.joints() + w] != 0;
             panels += any;
         }
-    double sum = 2.0 * weights.features() * weights.classes;
+    double sum = 2.0 * shape.features() * shape.classes;
     for (std::size_t i = 0; i < stgcn_layers; ++i) {
-        const double in = weights.width_before(i), out = weights.widths[i], joints = weights.joints();
-        const auto after = kernels::strided(frames, stgcn_strides[i]);
-        const auto filter = kernels::filtering(stgcn_strides[i]);
+        const auto layer = stgcn_layer(shape, i);
+        const double in = layer.in, out = layer.out, joints = shape.joints();
+        const auto after = kernels::strided(frames, layer.stride);
+        const auto filter = kernels::filtering(layer.stride);
         const auto tiles_a_joint = (after + filter.tile - 1) / filter.tile;
         sum += 2 * panels * frames * in * out + 2 * joints * tiles_a_joint * filter.points_in * out * out;
-        if (weights.has_residual_convolution(i)) sum += 2 * joints * after * in * out;
+        if (layer.residual == StgcnLayer::Residual::convolution) sum += 2 * joints * after * in * out;
         frames = after;
     }
     return sum;

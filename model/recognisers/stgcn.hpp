@@ -1,18 +1,19 @@
-// The ST-GCN recogniser on paper: its layers and its weights, named as in the public ST-GCN (DESIGN 4.8).
+// The ST-GCN recogniser as training sees it: its settings, how its weights start, its summary. The network itself is
+// eval/stgcn/network.hpp's.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "model/recognisers/graph.hpp"
+#include "eval/stgcn/network.hpp"
 
 namespace actformer::model {
 
 struct StgcnSettings {
     std::uint32_t channels = 3;  ///< numbers a joint, those of all persons together
     std::uint32_t classes = 0;
-    Graph graph;
+    eval::Graph graph;
     double width =
         1;  ///< times the public layers' 64, 128 and 256 channels, to the nearest 16: whole vectors
     double dropout = 0.5;  ///< behind every temporal convolution
@@ -20,16 +21,7 @@ struct StgcnSettings {
     bool operator==(const StgcnSettings&) const = default;
 };
 
-/// Graph convolution, temporal convolution of 9 frames, shortcut.
-struct StgcnLayer {
-    enum class Shortcut { none, identity, convolution };
-    std::uint32_t in = 0, out = 0, stride = 1;
-    Shortcut shortcut = Shortcut::identity;
-};
-
-constexpr std::uint32_t temporal_taps = 9;
-
-std::vector<StgcnLayer> stgcn_layers(const StgcnSettings& settings);
+eval::StgcnShape shape_of(const StgcnSettings& settings);
 
 /// How a weight starts.
 enum class Start { uniform, zeros, ones };

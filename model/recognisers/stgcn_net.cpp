@@ -9,6 +9,8 @@
 namespace actformer::model {
 namespace {
 
+using Residual = eval::StgcnLayer::Residual;
+
 constexpr double norm_momentum = 0.1, norm_epsilon = 1e-5;
 
 at::Tensor started(const WeightInfo& info, at::Generator& random) {
@@ -18,14 +20,20 @@ at::Tensor started(const WeightInfo& info, at::Generator& random) {
     return weight;
 }
 
+/// (3, K, K) float32, whatever the network's type: weights of either meet the same numbers.
+at::Tensor partition_tensor(const eval::Graph& graph) {
+    const std::int64_t joints = graph.joints();
+    std::vector<float> values;
+    for (const auto& part : eval::partition(graph)) values.insert(values.end(), part.begin(), part.end());
+    return at::from_blob(values.data(), {3, joints, joints}, at::kFloat).clone();
+}
+
 }  // namespace
 
 StgcnNet::StgcnNet(StgcnSettings settings, std::uint64_t seed, const at::Device& device, at::ScalarType type)
-    : settings_(std::move(settings)), infos_(stgcn_weights(settings_)) {
+    : settings_(std::move(settings)), shape_(shape_of(settings_)), infos_(stgcn_weights(settings_)) {
     check(settings_);
-    const std::int64_t joints = settings_.graph.joints();
-    auto partition = spatial_partition(settings_.graph);
-    partition_ = at::from_blob(partition.data(), {3, joints, joints}, at::kFloat).clone().to(device, type);
+    partition_ = partition_tensor(settings_.graph).to(device, type);
     edge_index_ = partition_.view(-1).nonzero().view(-1);
     edges_ = partition_.nonzero().to(at::kInt).contiguous();
     auto random = at::make_generator<at::CPUGeneratorImpl>(seed);
@@ -49,8 +57,8 @@ at::Tensor StgcnNet::edge_strengths(std::size_t layer) const {
 }
 
 at::Tensor StgcnNet::layer(const at::Tensor& x, std::size_t i, Mode mode) const {
-    const auto layer = stgcn_layers(settings_)[i];
-    const auto prefix = fmt::format("st_gcn_networks.{}.", i);
+    const auto layer = eval::stgcn_layer(shape_, i);
+    const auto prefix = eval::layer_prefix(i);
     const auto n = x.size(0), t = x.size(2), k = x.size(3), out = std::int64_t{layer.out};
 
     // Every part's own 1x1 convolution, then the sum over parts and source joints into the target joints.
@@ -59,8 +67,8 @@ at::Tensor StgcnNet::layer(const at::Tensor& x, std::size_t i, Mode mode) const 
 
     y = convolution(norm(y, prefix + "tcn.0", mode).relu(), prefix + "tcn.2", layer.stride);
     y = at::dropout(norm(y, prefix + "tcn.3", mode), settings_.dropout, mode == Mode::train);
-    if (layer.shortcut == StgcnLayer::Shortcut::identity) y = y + x;
-    if (layer.shortcut == StgcnLayer::Shortcut::convolution)
+    if (layer.residual == Residual::identity) y = y + x;
+    if (layer.residual == Residual::convolution)
         y = y + norm(convolution(x, prefix + "residual.0", layer.stride), prefix + "residual.1", mode);
     return y.relu();
 }
@@ -82,7 +90,7 @@ at::Tensor StgcnNet::fused_convolution(const at::Tensor& x, const std::string& n
 /// The sums over source joints come before the 1x1 convolution: the same numbers, over fewer channels. The convolution's
 /// bias then reaches a joint by the strengths of its edges.
 at::Tensor StgcnNet::fused_graph(const at::Tensor& x, std::size_t i) const {
-    const auto name = fmt::format("st_gcn_networks.{}.gcn.conv", i);
+    const auto name = eval::layer_prefix(i) + "gcn.conv";
     const auto in = x.size(3), out = weight(name + ".bias").size(0) / 3;
     const auto strengths = edge_strengths(i);
     const auto kernel = weight(name + ".weight").view({3, out, in}).permute({0, 2, 1}).reshape({3 * in, out});
@@ -91,11 +99,11 @@ at::Tensor StgcnNet::fused_graph(const at::Tensor& x, std::size_t i) const {
 }
 
 at::Tensor StgcnNet::fused_layer(const at::Tensor& x, std::size_t i, Mode mode, std::uint64_t seed) const {
-    const auto layer = stgcn_layers(settings_)[i];
-    const auto prefix = fmt::format("st_gcn_networks.{}.", i);
+    const auto layer = eval::stgcn_layer(shape_, i);
+    const auto prefix = eval::layer_prefix(i);
     at::Tensor shortcut;
-    if (layer.shortcut == StgcnLayer::Shortcut::identity) shortcut = x;
-    if (layer.shortcut == StgcnLayer::Shortcut::convolution)
+    if (layer.residual == Residual::identity) shortcut = x;
+    if (layer.residual == Residual::convolution)
         shortcut = fused_norm_of(fused_convolution(x, prefix + "residual.0", layer.stride),
                                  prefix + "residual.1", mode, false);
     auto y = fused_norm_of(fused_graph(x, i), prefix + "tcn.0", mode, true);
@@ -106,17 +114,16 @@ at::Tensor StgcnNet::fused_layer(const at::Tensor& x, std::size_t i, Mode mode, 
 
 at::Tensor StgcnNet::features(const at::Tensor& input, Mode mode, std::uint64_t dropout_seed) const {
     const auto n = input.size(0), c = input.size(1), t = input.size(2), k = input.size(3);
-    const auto layers = stgcn_layers(settings_).size();
     if (takes_fused_path()) {
         auto x = fused_norm_of(input.permute({0, 2, 3, 1}).reshape({n, t, 1, k * c}), "data_bn", mode, false)
                      .view({n, t, k, c});
-        for (std::size_t i = 0; i < layers; ++i) x = fused_layer(x, i, mode, dropout_seed);
+        for (std::size_t i = 0; i < eval::stgcn_layers; ++i) x = fused_layer(x, i, mode, dropout_seed);
         return x.mean({1, 2});
     }
     auto x = norm(input.permute({0, 3, 1, 2}).reshape({n, k * c, t}), "data_bn", mode).view({n, k, c, t});
     at::manual_seed(dropout_seed);
     x = x.permute({0, 2, 3, 1}).contiguous();
-    for (std::size_t i = 0; i < layers; ++i) x = layer(x, i, mode);
+    for (std::size_t i = 0; i < eval::stgcn_layers; ++i) x = layer(x, i, mode);
     return x.mean({2, 3});
 }
 

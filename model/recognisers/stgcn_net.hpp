@@ -68,6 +68,7 @@ class StgcnNet {
     at::Tensor fused_layer(const at::Tensor& x, std::size_t i, Mode mode, std::uint64_t seed) const;
 
     StgcnSettings settings_;
+    eval::StgcnShape shape_;
     std::vector<WeightInfo> infos_;
     std::map<std::string, at::Tensor> weights_;
     at::Tensor partition_;   ///< (3, K, K)

@@ -41,9 +41,8 @@ double relative_error(const std::vector<float>& a, const std::vector<float>& b) 
 }
 
 struct Features : testing::Test {
-    void weights(std::uint32_t channels, std::uint32_t classes, const std::vector<int>& parents,
-                 std::uint32_t center, double width = 0.125) {
-        write_weights(dir / "w.h5", eval::random_weights(channels, classes, parents, center, width, 5));
+    void weights(std::uint32_t channels, std::uint32_t classes, const eval::Graph& graph) {
+        write_weights(dir / "w.h5", eval::random_weights(channels, classes, graph, 0.125, 5));
     }
     void motions(const std::vector<std::pair<std::string, std::uint32_t>>& frames, std::uint32_t persons = 1,
                  std::uint32_t joints = 25) {
@@ -89,7 +88,7 @@ bool has_torch() {
 }  // namespace
 
 TEST_F(Features, TakeEveryMotionAtItsFullLength) {
-    weights(6, 4, eval::ntu_edges, 20);
+    weights(6, 4, eval::ntu_graph());
     motions({{"A001_0", 20}, {"A001_1", 33}, {"A002_0", 20}, {"A004_0", 7}}, 2);
     const auto result = features("m.h5", "--json");
     ASSERT_EQ(result.exit, 0) << result.output;
@@ -118,7 +117,7 @@ TEST_F(Features, TakeEveryMotionAtItsFullLength) {
 }
 
 TEST_F(Features, DependOnTheFramesAskedForAndNotOnTheBatch) {
-    weights(3, 4, small_tree, 0);
+    weights(3, 4, {small_tree, 0});
     motions({{"walk", 20}, {"run", 33}, {"sit", 25}}, 1, 21);
     ASSERT_EQ(features("m.h5", "--frames 20").exit, 0);
     const auto cropped = Reader(dir / "f.h5").read<float>("features");
@@ -134,7 +133,7 @@ TEST_F(Features, DependOnTheFramesAskedForAndNotOnTheBatch) {
 
 TEST_F(Features, CutDatasetsIntoWindows) {
     const ingest::Dataset data(dataset() / "ntu-2p");
-    weights(6, static_cast<std::uint32_t>(data.header().classes.size()), eval::ntu_edges, 20);
+    weights(6, static_cast<std::uint32_t>(data.header().classes.size()), eval::ntu_graph());
     fs::create_symlink(dataset() / "ntu-2p", dir / "data");
     const auto result = features("data", "--window 40");
     ASSERT_EQ(result.exit, 0) << result.output;
@@ -147,7 +146,7 @@ TEST_F(Features, CutDatasetsIntoWindows) {
 }
 
 TEST_F(Features, RefuseWhatDoesNotFit) {
-    weights(3, 4, eval::ntu_edges, 20);
+    weights(3, 4, eval::ntu_graph());
     motions({{"A001_0", 20}}, 2);
     expect_refused(features("m.h5"), {"m.h5", "A001_0", "6 channels"});
     motions({{"A001_0", 20}}, 1, 24);
@@ -172,17 +171,17 @@ TEST_F(Features, RefuseWhatDoesNotFit) {
 TEST_F(Features, RefuseDatasetsOfAnotherKind) {
     fs::create_symlink(dataset() / "ntu-1p", dir / "data");
     const auto classes = static_cast<std::uint32_t>(ingest::Dataset(dir / "data").header().classes.size());
-    weights(6, classes, eval::ntu_edges, 20);
+    weights(6, classes, eval::ntu_graph());
     expect_refused(features("data"), {"data", "persons"});
-    weights(3, classes, small_tree, 0);
+    weights(3, classes, {small_tree, 0});
     expect_refused(features("data"), {"data", "25 joints"});
-    weights(3, classes + 1, eval::ntu_edges, 20);
+    weights(3, classes + 1, eval::ntu_graph());
     expect_refused(features("data"), {"data", "classes"});
-    auto other = eval::ntu_edges;
-    other[24] = 0;
-    weights(3, classes, other, 20);
+    auto other = eval::ntu_graph();
+    other.parents[24] = 0;
+    weights(3, classes, other);
     expect_refused(features("data"), {"data", "another tree"});
-    weights(3, classes, eval::ntu_edges, 20);
+    weights(3, classes, eval::ntu_graph());
     expect_refused(features("data", "--split nowhere"), {"nowhere"});
     ASSERT_EQ(features("data").exit, 0);
 }
@@ -197,11 +196,10 @@ TEST_F(Features, AgreeWithTheReference) {
     };
     for (const auto& c : {Case{1, 64, true, 1}, Case{1, 60, false, 1}, Case{2, 61, true, 0.25},
                           Case{1, 17, true, 1}, Case{2, 1, false, 0.5}}) {
-        const auto& parents = c.ntu ? eval::ntu_edges : small_tree;
-        write_weights(dir / "w.h5",
-                      eval::random_weights(3 * c.persons, 94, parents, c.ntu ? 20 : 0, c.width, 8));
+        const auto graph = c.ntu ? eval::ntu_graph() : eval::Graph{small_tree, 0};
+        write_weights(dir / "w.h5", eval::random_weights(3 * c.persons, 94, graph, c.width, 8));
         motions({{"a", c.frames}, {"b", c.frames + 3}, {"c", c.frames}, {"d", c.frames + 3}, {"e", c.frames}},
-                c.persons, static_cast<std::uint32_t>(parents.size()));
+                c.persons, graph.joints());
         const auto frames = "--frames " + std::to_string(c.frames);
         ASSERT_EQ(features("m.h5", frames).exit, 0);
         const auto oracle =

@@ -30,7 +30,7 @@ struct Swept {
             const auto classes = static_cast<std::uint32_t>(dataset.header().classes.size());
             eval::write_weights(
                 dir / (std::string(name) + "-eyes.h5"),
-                eval::random_weights(3 * dataset.header().persons, classes, eval::ntu_edges, 20, 0.125, 1));
+                eval::random_weights(3 * dataset.header().persons, classes, eval::ntu_graph(), 0.125, 1));
             write_motions(dataset, std::string(name) + ".h5");
         }
         write_file(dir / "sweep.yaml", sweep_yaml());

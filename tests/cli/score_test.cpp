@@ -46,9 +46,9 @@ struct Score : testing::Test {
     void SetUp() override {
         one_person_classes = classes_of("ntu-1p");
         write_weights(dir / "one.h5",
-                      eval::random_weights(3, one_person_classes, eval::ntu_edges, 20, 0.125, 1));
+                      eval::random_weights(3, one_person_classes, eval::ntu_graph(), 0.125, 1));
         write_weights(dir / "two.h5",
-                      eval::random_weights(6, classes_of("ntu-2p"), eval::ntu_edges, 20, 0.125, 2));
+                      eval::random_weights(6, classes_of("ntu-2p"), eval::ntu_graph(), 0.125, 2));
     }
     static std::uint32_t classes_of(const char* name) {
         return static_cast<std::uint32_t>(ingest::Dataset(datasets() / name).header().classes.size());
@@ -431,7 +431,7 @@ TEST_F(Score, RefusesWhatDoesNotFit) {
     expect_refused(two_persons() + "--single-recogniser " + at("two.h5") + " --generated " + at("two.h5m"),
                    {"two.h5", "one"});
     write_weights(dir / "more.h5",
-                  eval::random_weights(3, one_person_classes + 1, eval::ntu_edges, 20, 0.125, 1));
+                  eval::random_weights(3, one_person_classes + 1, eval::ntu_graph(), 0.125, 1));
     expect_refused("--recogniser " + at("more.h5") + " --real " + (datasets() / "ntu-1p").string() +
                        " --generated " + at("m.h5"),
                    {"classes", "more.h5"});

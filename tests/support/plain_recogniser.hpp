@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "eval/stgcn/partition.hpp"
+#include "eval/stgcn/graph.hpp"
 #include "eval/stgcn/weights.hpp"
 
 namespace actformer::test {
@@ -20,7 +20,7 @@ struct PlainResult {
 class PlainRecogniser {
   public:
     explicit PlainRecogniser(const eval::Weights& weights)
-        : w_(weights), parts_(eval::partition(weights.parents, weights.center)) {}
+        : w_(weights), parts_(eval::partition(weights.graph)) {}
 
     PlainResult operator()(const float* motion, std::size_t frames) const {
         const std::size_t joints = w_.joints(), channels = w_.channels;
@@ -57,7 +57,7 @@ class PlainRecogniser {
     /// (in, frames, K) to (out, frames after the stride, K); changes `frames`.
     std::vector<double> layer(std::size_t i, const std::vector<double>& x, std::size_t& frames) const {
         const auto prefix = eval::layer_prefix(i);
-        const std::size_t joints = w_.joints(), in = w_.width_before(i), out = w_.widths[i];
+        const std::size_t joints = w_.joints(), in = eval::stgcn_layer(w_, i).in, out = w_.widths[i];
         const std::size_t stride = i == 4 || i == 7 ? 2 : 1, after = (frames - 1) / stride + 1,
                           plane = frames * joints;
         const auto &conv = w_.at(prefix + "gcn.conv.weight"), &conv_bias = w_.at(prefix + "gcn.conv.bias");
@@ -112,7 +112,7 @@ class PlainRecogniser {
 
     double residual(std::size_t i, const std::vector<double>& x, std::size_t frames, std::size_t o,
                     std::size_t t, std::size_t k) const {
-        const std::size_t in = w_.width_before(i), joints = w_.joints();
+        const std::size_t in = eval::stgcn_layer(w_, i).in, joints = w_.joints();
         if (i == 0) return 0;
         if (!w_.tensors.contains(eval::layer_prefix(i) + "residual.0.weight"))
             return x[(o * frames + t) * joints + k];

@@ -36,8 +36,8 @@ struct Case {
 };
 
 void expect_right(const Case& c, const kernels::Tiles& tiles, kernels::Device& device) {
-    const auto weights = c.ntu ? eval::random_weights(c.persons * 3, 7, eval::ntu_edges, 20, c.width, 1)
-                               : eval::random_weights(c.persons * 3, 11, test::small_tree, 0, c.width, 2);
+    const auto weights = c.ntu ? eval::random_weights(c.persons * 3, 7, eval::ntu_graph(), c.width, 1)
+                               : eval::random_weights(c.persons * 3, 11, {test::small_tree, 0}, c.width, 2);
     eval::Recogniser recogniser(device, weights, tiles);
     const std::size_t numbers = std::size_t{weights.channels} * c.frames * weights.joints();
     const auto motions = made_motions(c.sequences * numbers, c.frames);
@@ -82,7 +82,7 @@ TEST(Recogniser, AgreesWithEveryShapeOfTiles) {
 
 TEST(Recogniser, GivesAMotionTheSameNumbersInAnyBatch) {
     kernels::Device device;
-    const auto weights = eval::random_weights(3, 5, eval::ntu_edges, 20, 0.25, 3);
+    const auto weights = eval::random_weights(3, 5, eval::ntu_graph(), 0.25, 3);
     eval::Recogniser recogniser(device, weights, kernels::default_tiles(device.info()));
     const auto motions = made_motions(21 * 3 * 20 * 25, 4);
     const auto together = recogniser.recognise(motions, 21, 20);
@@ -96,7 +96,7 @@ TEST(Recogniser, GivesAMotionTheSameNumbersInAnyBatch) {
 
 TEST(Recogniser, RefusesMotionsOfAnotherSize) {
     kernels::Device device;
-    const auto weights = eval::random_weights(3, 5, eval::ntu_edges, 20, 0.125, 3);
+    const auto weights = eval::random_weights(3, 5, eval::ntu_graph(), 0.125, 3);
     eval::Recogniser recogniser(device, weights, kernels::default_tiles(device.info()));
     EXPECT_THROW(recogniser.recognise(made_motions(100, 1), 1, 20), Error);
     EXPECT_THROW(recogniser.recognise(std::span<const float>(), 1, 0), Error);

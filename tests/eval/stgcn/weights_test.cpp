@@ -14,7 +14,7 @@ using namespace actformer;
 namespace {
 
 eval::Weights small() {
-    return eval::random_weights(6, 5, test::small_tree, 0, 0.0625, 1);
+    return eval::random_weights(6, 5, {test::small_tree, 0}, 0.0625, 1);
 }
 
 /// Writes what `change` makes of good weights; tensors taken out are left out.
@@ -26,15 +26,16 @@ struct Changed {
     explicit Changed(Change change) {
         auto weights = small();
         std::map<std::string, hdf5::Shape> shapes;
-        for (const auto& [name, shape] : eval::tensor_shapes(weights))
-            shapes[name].assign(shape.begin(), shape.end());
+        for (const auto& tensor : eval::stgcn_tensors(weights))
+            shapes[tensor.name].assign(tensor.shape.begin(), tensor.shape.end());
         change(weights, shapes);
         hdf5::Writer file(path);
         for (const auto& [name, values] : weights.tensors) file.write<float>(name, shapes.at(name), values);
         file.attribute("channels", std::int64_t{weights.channels});
         file.attribute("classes", std::int64_t{weights.classes});
-        file.attribute("parents", std::vector<std::int64_t>(weights.parents.begin(), weights.parents.end()));
-        file.attribute("center", std::int64_t{weights.center});
+        file.attribute("parents",
+                       std::vector<std::int64_t>(weights.graph.parents.begin(), weights.graph.parents.end()));
+        file.attribute("center", std::int64_t{weights.graph.center});
         file.finish();
     }
 
@@ -63,7 +64,7 @@ TEST(Weights, ComeBackAsTheyWereWritten) {
     write_weights(folder / "w.h5", weights);
     const auto back = eval::read_weights(folder / "w.h5");
     EXPECT_EQ(back.tensors, weights.tensors);
-    EXPECT_EQ(back.parents, weights.parents);
+    EXPECT_EQ(back.graph, weights.graph);
     EXPECT_EQ(back.widths, weights.widths);
     EXPECT_EQ(back.channels, 6U);
     EXPECT_EQ(back.classes, 5U);
@@ -95,12 +96,12 @@ TEST(Weights, NameWhatIsWrong) {
 }
 
 TEST(Weights, RefuseParentsThatAreNoTree) {
-    expect_refusal(Changed([](auto& w, auto&) { w.parents[5] = 6; }),
+    expect_refusal(Changed([](auto& w, auto&) { w.graph.parents[5] = 6; }),
                    "no tree");  // 5 and 6 hang from each other
-    expect_refusal(Changed([](auto& w, auto&) { w.parents[5] = -1; }), "no tree");  // two roots
-    expect_refusal(Changed([](auto& w, auto&) { w.parents[5] = 40; }), "no tree");  // nobody
-    expect_refusal(Changed([](auto& w, auto&) { w.center = 21; }), "center");
-    expect_refusal(Changed([](auto& w, auto&) { w.parents.pop_back(); }),
+    expect_refusal(Changed([](auto& w, auto&) { w.graph.parents[5] = -1; }), "no tree");  // two roots
+    expect_refusal(Changed([](auto& w, auto&) { w.graph.parents[5] = 40; }), "no tree");  // nobody
+    expect_refusal(Changed([](auto& w, auto&) { w.graph.center = 21; }), "center");
+    expect_refusal(Changed([](auto& w, auto&) { w.graph.parents.pop_back(); }),
                    "");  // fewer joints than the tensors
 }
 

@@ -1,4 +1,4 @@
-// The network: partition, names and counts, forward against plain loops in double and against the oracle, gradients of the two paths.
+// The network: names and counts, forward against plain loops in double and against the oracle, gradients of the two paths.
 #include "model/recognisers/stgcn_net.hpp"
 
 #include <ATen/Parallel.h>
@@ -50,7 +50,7 @@ void stir(StgcnNet& net) {
 
 using Volume = std::vector<double>;
 
-/// The network as DESIGN 4.8 and the oracle spell it, (C, T, K) loops in double for one sample.
+/// The network as the oracle spells it, (C, T, K) loops in double for one sample.
 struct PlainNet {
     const StgcnNet& net;
     std::int64_t k = net.settings().graph.joints();
@@ -82,11 +82,11 @@ struct PlainNet {
         return y;
     }
     Volume layer(const Volume& x, std::size_t i, std::int64_t& t) const {
-        const auto layer = stgcn_layers(net.settings())[i];
+        const auto layer = eval::stgcn_layer(shape_of(net.settings()), i);
         const auto prefix = "st_gcn_networks." + std::to_string(i) + ".";
         const std::int64_t out = layer.out;
         const auto parts = convolve(x, layer.in, t, prefix + "gcn.conv", 1);
-        const auto partition = spatial_partition(net.settings().graph);
+        const auto partition = eval::partition(net.settings().graph);
         Volume y(static_cast<std::size_t>(out * t * k), 0);
         for (std::int64_t p = 0; p < 3; ++p)
             for (std::int64_t c = 0; c < out; ++c)
@@ -94,8 +94,8 @@ struct PlainNet {
                     for (std::int64_t v = 0; v < k; ++v)
                         for (std::int64_t u = 0; u < k; ++u) {
                             const auto edge = (p * k + v) * k + u;
-                            y[(c * t + f) * k + u] += parts[((p * out + c) * t + f) * k + v] *
-                                                      static_cast<double>(partition[edge]) *
+                            const double share = static_cast<float>(partition[p][v * k + u]);
+                            y[(c * t + f) * k + u] += parts[((p * out + c) * t + f) * k + v] * share *
                                                       w("edge_importance." + std::to_string(i), edge);
                         }
         for (std::size_t n = 0; n < y.size(); ++n)
@@ -103,8 +103,8 @@ struct PlainNet {
         y = convolve(y, out, t, prefix + "tcn.2", layer.stride);
         Volume shortcut(y.size(), 0);
         const auto frames = (t + layer.stride - 1) / layer.stride;
-        if (layer.shortcut == StgcnLayer::Shortcut::identity) shortcut = x;
-        if (layer.shortcut == StgcnLayer::Shortcut::convolution) {
+        if (layer.residual == eval::StgcnLayer::Residual::identity) shortcut = x;
+        if (layer.residual == eval::StgcnLayer::Residual::convolution) {
             shortcut = convolve(x, layer.in, t, prefix + "residual.0", layer.stride);
             for (std::size_t n = 0; n < y.size(); ++n)
                 shortcut[n] =
@@ -125,15 +125,15 @@ struct PlainNet {
             for (std::int64_t f = 0; f < t; ++f)
                 for (std::int64_t j = 0; j < k; ++j)
                     x[(i * t + f) * k + j] = normal(x[(i * t + f) * k + j], "data_bn", j * c + i);
-        const auto layers = stgcn_layers(net.settings());
-        for (std::size_t i = 0; i < layers.size(); ++i) x = layer(x, i, t);
+        const std::int64_t features = shape_of(net.settings()).features();
+        for (std::size_t i = 0; i < eval::stgcn_layers; ++i) x = layer(x, i, t);
         std::vector<double> out;
         for (std::int64_t o = 0; o < net.settings().classes; ++o) {
             double sum = w("fcn.bias", o);
-            for (std::int64_t i = 0; i < layers.back().out; ++i) {
+            for (std::int64_t i = 0; i < features; ++i) {
                 double mean = 0;
                 for (std::int64_t n = 0; n < t * k; ++n) mean += x[i * t * k + n];
-                sum += w("fcn.weight", o * layers.back().out + i) * mean / static_cast<double>(t * k);
+                sum += w("fcn.weight", o * features + i) * mean / static_cast<double>(t * k);
             }
             out.push_back(sum);
         }
@@ -143,29 +143,12 @@ struct PlainNet {
 
 }  // namespace
 
-TEST(Partition, ColumnsSumToOneAndPartsFollowTheCentre) {
-    const auto a = spatial_partition(ntu_graph());
-    for (std::size_t target = 0; target < 25; ++target) {
-        double sum = 0;
-        for (std::size_t i = 0; i < 75; ++i) sum += a[i * 25 + target];
-        EXPECT_NEAR(sum, 1, 1e-6);
-    }
-    const auto at = [&](std::size_t part, std::size_t source, std::size_t target) {
-        return a[(part * 25 + source) * 25 + target];
-    };
-    EXPECT_GT(at(1, 1, 20), 0);  // the spine is farther from the centre than the centre
-    EXPECT_GT(at(2, 20, 1), 0);
-    EXPECT_GT(at(1, 22, 21), 0);  // both beyond one hop: as far
-    EXPECT_GT(at(1, 21, 22), 0);
-    EXPECT_EQ(std::count_if(a.begin(), a.end(), [](float v) { return v > 0; }), 25 + 2 * 24);
-}
-
 TEST(Stgcn, CountsThePublicNetworksParameters) {
     std::int64_t trained = 0;
-    for (const auto& weight : stgcn_weights({3, 60, ntu_graph(), 1, 0.5}))
+    for (const auto& weight : stgcn_weights({3, 60, eval::ntu_graph(), 1, 0.5}))
         trained += weight.trained ? weight.count() : 0;
     std::int64_t summed = 0;
-    for (const auto& line : stgcn_summary({3, 60, ntu_graph(), 1, 0.5}, 300)) summed += line.parameters;
+    for (const auto& line : stgcn_summary({3, 60, eval::ntu_graph(), 1, 0.5}, 300)) summed += line.parameters;
     EXPECT_EQ(summed, trained);
     // By hand: data_bn 150; three parts' 1x1 kernels, 9-frame kernels, two norms a layer, two shortcuts, importances, classes.
     const std::int64_t graph = 3 * (64 * 3 + 64) + 3 * 3 * (64 * 64 + 64) + 3 * (128 * 64 + 128) +
@@ -247,7 +230,7 @@ TEST(Stgcn, AgreesWithTheOracleBothWays) {
     const auto path = [&](const std::string& name) { return (dir / name).string(); };
     const auto python = "/usr/bin/python3 " + oracle + " ";
     ASSERT_EQ(run_command(python + "weights " + path("w.h5") + " --channels 6 --classes 26").exit, 0);
-    const StgcnSettings settings{6, 26, ntu_graph(), 1, 0.5};
+    const StgcnSettings settings{6, 26, eval::ntu_graph(), 1, 0.5};
     StgcnNet net(settings, 0);
     const hdf5::Reader file(dir / "w.h5");
     std::vector<Array> arrays;
