@@ -13,8 +13,10 @@
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
 #include "cli/bench.hpp"
+#include "eval/stgcn/operations.hpp"
 #include "eval/stgcn/recogniser.hpp"
 #include "eval/stgcn/tuning.hpp"
+#include "kernels/buffer.hpp"
 #include "kernels/peak.hpp"
 
 namespace actformer::cli {
@@ -40,7 +42,7 @@ Breakdown time_steps(kernels::Device& device, const eval::Weights& weights, cons
                      const Options& options) {
     using Clock = std::chrono::steady_clock;
     Breakdown best{};
-    eval::Recogniser recogniser(device, weights, tiles);
+    eval::StgcnRecogniser recogniser(device, weights, tiles);
     const std::vector<float> motions(
         std::size_t{options.batch} * weights.channels * options.frames * weights.joints(), 0.5F);
     const kernels::Buffer<float> on_device(device, motions);

@@ -10,6 +10,7 @@
 #include "base/hdf5/reader.hpp"
 #include "eval/metrics/scores.hpp"
 #include "eval/scoring/features_file.hpp"
+#include "eval/stgcn/recogniser.hpp"
 #include "eval/stgcn/tuning.hpp"
 #include "ingest/dataset/view.hpp"
 
@@ -156,7 +157,7 @@ FeaturesSummary features_of_motions(const FeaturesRequest& request, const Weight
                                     kernels::Device& device, const Tell& tell) {
     const hdf5::Reader input(request.input);
     const auto list = list_motions(input, request, weights);
-    Recogniser recogniser(device, weights, tiles_for(device, request.batch));
+    StgcnRecogniser recogniser(device, weights, tiles_for(device, request.batch));
     const std::uint32_t classes = request.persons_apart ? 0 : weights.classes;
     FeaturesFile out(request.out, list.names.size(), weights.features(), classes);
     std::uint64_t done = 0;
@@ -198,7 +199,7 @@ FeaturesSummary features_of_dataset(const FeaturesRequest& request, const Weight
     const auto windows = kernels::consecutive_windows(view.store.table().frames, request.window);
     const kernels::WindowCutter cutter(view.store, windows);
     auto batch = make_batch(view.store, std::min<std::size_t>(request.batch, windows.size()), request.window);
-    Recogniser recogniser(device, weights, tiles_for(device, request.batch));
+    StgcnRecogniser recogniser(device, weights, tiles_for(device, request.batch));
     const std::uint32_t classes = request.persons_apart ? 0 : weights.classes;
     const auto persons = request.persons_apart ? dataset.header().persons : 1;
     FeaturesFile out(request.out, windows.size(), weights.features(), classes);

@@ -8,7 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "eval/stgcn/recogniser.hpp"
+#include "eval/recogniser.hpp"
+#include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/dataset.hpp"
 
 namespace actformer::eval {

@@ -1,59 +1,38 @@
-// The recogniser at work: motions to features and logits on an OpenCL device.
+// The ST-GCN on an OpenCL device.
 #pragma once
 
 #include <functional>
-#include <memory>
-#include <span>
-#include <vector>
 
+#include "eval/recogniser.hpp"
 #include "eval/stgcn/weights.hpp"
-#include "kernels/stgcn.hpp"
+#include "kernels/tiles.hpp"
 
 namespace actformer::eval {
 
 /// The steps of a layer, for timing.
 enum class Step { enter, gather, graph, split, temporal, join, residual, pool };
 
-struct Recognised {
-    std::vector<float> features;  ///< (sequences, Weights::features())
-    std::vector<float> logits;    ///< (sequences, classes)
-};
-
-/// Calls may come from one thread at a time.
-class Recogniser {
+/// tiles().sequences sequences go through the network together, or fewer where the device's memory asks for it.
+class StgcnRecogniser final : public Recogniser {
   public:
-    /// `device` must outlive the recogniser.
-    Recogniser(kernels::Device& device, const Weights& weights, const kernels::Tiles& tiles);
-    ~Recogniser();
+    StgcnRecogniser(kernels::Device& device, const Weights& weights, const kernels::Tiles& tiles);
+    ~StgcnRecogniser() override;
 
-    /// motions (sequences, channels, frames, K) as they are, batch norm included. Any number of sequences of any number of
-    /// frames, at least 1: tiles().sequences of them go through together, or fewer where the device's memory asks for it.
-    /// The same motion gives the same numbers whatever else is in the batch. Throws Error for a span of another size, and
-    /// OutOfMemory where not even one sequence fits.
-    Recognised recognise(std::span<const float> motions, std::uint32_t sequences, std::uint32_t frames);
-
-    /// The same with motions that lie on the device.
-    Recognised recognise(const cl::Buffer& motions, std::uint32_t sequences, std::uint32_t frames);
+    using Recogniser::recognise;
+    Recognised recognise(const cl::Buffer& motions, std::uint32_t sequences, std::uint32_t frames) override;
 
     /// Calls `probe` after each step has been enqueued; an empty one is not called.
     void watch(std::function<void(std::size_t layer, Step step)> probe);
 
     const kernels::Tiles& tiles() const;
-    std::uint32_t channels() const;
-    std::uint32_t joints() const;
-    std::uint32_t features() const;
-    std::uint32_t classes() const;
 
   private:
     struct Network;
     std::unique_ptr<Network> network_;
 };
 
-/// Multiplications and additions that the network's definition asks for a sequence (direct convolutions, the graph
-/// multiplied as a dense matrix counts nothing), in floating-point operations.
-double direct_operations(const StgcnShape& shape, std::uint32_t frames);
-
-/// Those that the multiplies here do: minimal filtering and empty neighbourhoods taken into account.
-double multiplied_operations(const StgcnShape& shape, std::uint32_t frames);
+/// As open_recogniser() does, with the tiles kept for this device.
+std::unique_ptr<Recogniser> open_stgcn(kernels::Device& device, const std::filesystem::path& weights,
+                                       std::uint32_t batch);
 
 }  // namespace actformer::eval

@@ -10,6 +10,7 @@
 #include "base/files/cache.hpp"
 #include "base/files/file.hpp"
 #include "eval/stgcn/recogniser.hpp"
+#include "kernels/buffer.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -106,7 +107,7 @@ void save_tiles(const kernels::DeviceInfo& device, const Tiles& tiles) {
 
 double measure_rate(kernels::Device& device, const Weights& weights, const Tiles& tiles,
                     std::uint32_t sequences, std::uint32_t frames, int repeats) {
-    Recogniser recogniser(device, weights, tiles);
+    StgcnRecogniser recogniser(device, weights, tiles);
     const std::vector<float> motions(std::size_t{sequences} * weights.channels * frames * weights.joints(),
                                      0.5F);
     const kernels::Buffer<float> on_device(device, motions);

@@ -100,6 +100,11 @@ Weights read_weights(const std::filesystem::path& file_path) {
     weights.source = path;
     weights.channels = one_number(file, path, "channels", 1, most_channels);
     weights.classes = one_number(file, path, "classes", 1, most_classes);
+    if (file.has_attribute("representation")) {
+        const auto texts = file.attribute_texts("representation");
+        if (texts.size() != 1) throw Error("{}: attribute 'representation' is not one text", path);
+        weights.representation = texts[0];
+    }
     weights.graph.parents = read_parents(file, path);
     weights.graph.center = one_number(file, path, "center", 0, std::int64_t{weights.joints()} - 1);
     for (std::size_t i = 0; i < stgcn_layers; ++i) weights.widths[i] = read_width(file, path, i);
@@ -116,6 +121,8 @@ void write_weights(const std::filesystem::path& path, const Weights& weights) {
     hdf5::Writer file(aside.partial());
     for (const auto& [name, shape, role, fan_in] : stgcn_tensors(weights))
         file.write<float>(name, hdf5::Shape(shape.begin(), shape.end()), weights.at(name));
+    file.attribute("kind", std::string("stgcn"));
+    file.attribute("representation", weights.representation);
     file.attribute("channels", std::int64_t{weights.channels});
     file.attribute("classes", std::int64_t{weights.classes});
     file.attribute("parents",

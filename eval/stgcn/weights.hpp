@@ -1,5 +1,5 @@
 // The ST-GCN's weights as a file holds them: HDF5, float32 datasets named as in the public state_dict, and attributes
-// `channels`, `classes`, `parents`, `center`.
+// `channels`, `classes`, `parents`, `center`, and where they are known `kind` ("stgcn") and `representation`.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,8 @@ namespace actformer::eval {
 
 /// A network of any width with its tensors.
 struct Weights : StgcnShape {
-    std::string source;  ///< the file, for messages
+    std::string source;                   ///< the file, for messages
+    std::string representation = "limb";  ///< of the motions; as files without the attribute have it
     std::map<std::string, std::vector<float>> tensors;
 
     const std::vector<float>& at(const std::string& name) const { return tensors.at(name); }

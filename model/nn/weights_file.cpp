@@ -22,6 +22,7 @@ hdf5::Writer weights_writer(const std::vector<Array>& arrays) {
 void save_weights(const std::filesystem::path& path, const StgcnSettings& settings,
                   const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes) {
     auto file = weights_writer(arrays);
+    file.attribute("kind", std::string("stgcn"));
     file.attribute("channels", std::int64_t{settings.channels});
     file.attribute("classes", std::int64_t{settings.classes});
     file.attribute("parents",

@@ -39,7 +39,7 @@ struct Judge::Parts {
     std::string checksum;
     eval::Weights weights;
     kernels::Device device;
-    eval::Recogniser recogniser;
+    eval::StgcnRecogniser recogniser;
     eval::Statistics real;
     double real_accuracy = 0;
     std::uint32_t frames = 0;

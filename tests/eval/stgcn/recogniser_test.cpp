@@ -5,7 +5,9 @@
 
 #include <random>
 
+#include "base/hdf5/writer.hpp"
 #include "tests/support/plain_recogniser.hpp"
+#include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
 
@@ -38,7 +40,7 @@ struct Case {
 void expect_right(const Case& c, const kernels::Tiles& tiles, kernels::Device& device) {
     const auto weights = c.ntu ? eval::random_weights(c.persons * 3, 7, eval::ntu_graph(), c.width, 1)
                                : eval::random_weights(c.persons * 3, 11, {test::small_tree, 0}, c.width, 2);
-    eval::Recogniser recogniser(device, weights, tiles);
+    eval::StgcnRecogniser recogniser(device, weights, tiles);
     const std::size_t numbers = std::size_t{weights.channels} * c.frames * weights.joints();
     const auto motions = made_motions(c.sequences * numbers, c.frames);
     const auto got = recogniser.recognise(motions, c.sequences, c.frames);
@@ -83,7 +85,7 @@ TEST(Recogniser, AgreesWithEveryShapeOfTiles) {
 TEST(Recogniser, GivesAMotionTheSameNumbersInAnyBatch) {
     kernels::Device device;
     const auto weights = eval::random_weights(3, 5, eval::ntu_graph(), 0.25, 3);
-    eval::Recogniser recogniser(device, weights, kernels::default_tiles(device.info()));
+    eval::StgcnRecogniser recogniser(device, weights, kernels::default_tiles(device.info()));
     const auto motions = made_motions(21 * 3 * 20 * 25, 4);
     const auto together = recogniser.recognise(motions, 21, 20);
     for (const std::size_t n : {0U, 7U, 20U}) {
@@ -97,8 +99,66 @@ TEST(Recogniser, GivesAMotionTheSameNumbersInAnyBatch) {
 TEST(Recogniser, RefusesMotionsOfAnotherSize) {
     kernels::Device device;
     const auto weights = eval::random_weights(3, 5, eval::ntu_graph(), 0.125, 3);
-    eval::Recogniser recogniser(device, weights, kernels::default_tiles(device.info()));
+    eval::StgcnRecogniser recogniser(device, weights, kernels::default_tiles(device.info()));
     EXPECT_THROW(recogniser.recognise(made_motions(100, 1), 1, 20), Error);
     EXPECT_THROW(recogniser.recognise(std::span<const float>(), 1, 0), Error);
     EXPECT_TRUE(recogniser.recognise(std::span<const float>(), 0, 20).features.empty());
+}
+
+namespace {
+
+std::string refusal_of(const std::filesystem::path& weights) {
+    kernels::Device device;
+    try {
+        eval::open_recogniser(device, weights);
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST(Recogniser, IsOpenedByTheKindOfItsWeights) {
+    const test::TempDir dir;
+    const auto weights = eval::random_weights(6, 5, eval::ntu_graph(), 0.125, 3);
+    write_weights(dir / "w.h5", weights);
+    kernels::Device device;
+    const auto opened = eval::open_recogniser(device, dir / "w.h5");
+    EXPECT_EQ(opened->info().kind, "stgcn");
+    EXPECT_EQ(opened->info().representation, "limb");
+    EXPECT_EQ(opened->info().channels, 6U);
+    EXPECT_EQ(opened->info().joints(), 25U);
+    EXPECT_EQ(opened->info().classes, 5U);
+    EXPECT_EQ(opened->info().features, 32U);
+    const auto motions = made_motions(2 * 6 * 20 * 25, 6);
+    eval::StgcnRecogniser direct(device, weights, kernels::default_tiles(device.info()));
+    EXPECT_EQ(opened->recognise(motions, 2, 20).logits, direct.recognise(motions, 2, 20).logits);
+
+    hdf5::Writer other(dir / "gru.h5");
+    other.attribute("kind", std::string("transformer"));
+    other.finish();
+    const auto said = refusal_of(dir / "gru.h5");
+    EXPECT_NE(said.find("gru.h5: attribute 'kind' is 'transformer'"), std::string::npos) << said;
+    EXPECT_NE(said.find("stgcn"), std::string::npos) << said;
+    hdf5::Writer generator(dir / "g.h5");
+    generator.attribute("model", std::string("generator"));
+    generator.finish();
+    EXPECT_NE(refusal_of(dir / "g.h5").find("generator"), std::string::npos) << refusal_of(dir / "g.h5");
+}
+
+TEST(Recogniser, OpensWeightsWithoutAKindAsAnStgcn) {
+    const test::TempDir dir;
+    const auto weights = eval::random_weights(3, 4, {test::small_tree, 0}, 0.0625, 3);
+    hdf5::Writer file(dir / "public.h5");
+    for (const auto& tensor : eval::stgcn_tensors(weights))
+        file.write<float>(tensor.name, hdf5::Shape(tensor.shape.begin(), tensor.shape.end()),
+                          weights.at(tensor.name));
+    file.attribute("channels", std::int64_t{3});
+    file.attribute("classes", std::int64_t{4});
+    file.attribute("parents", std::vector<std::int64_t>(test::small_tree.begin(), test::small_tree.end()));
+    file.attribute("center", std::int64_t{0});
+    file.finish();
+    kernels::Device device;
+    EXPECT_EQ(eval::open_recogniser(device, dir / "public.h5")->info().kind, "stgcn");
 }
