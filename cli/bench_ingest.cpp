@@ -73,7 +73,8 @@ ingest::IngestSummary run_ours(const Options& options, const fs::path& raw, cons
     request.raw = {raw};
     request.out = out;
     request.threads = options.threads;
-    return ingest::ingest(request, ingest::NtuFormat(), device);
+    ingest::NtuFormat format;
+    return ingest::ingest(request, format, device);
 }
 
 double cpu_seconds() {

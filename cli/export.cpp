@@ -28,7 +28,8 @@ void run(const Options& options) {
     ingest::MotionsWriter writer(options.out);
     writer.describe(ingest::subjects_of(dataset));
     for (std::size_t i = 0; i < clips.size(); ++i) {
-        writer.add(dataset.public_name(clips[i]), dataset.motion(clips[i]));
+        const auto& clip = dataset.clips()[clips[i]];
+        writer.add(ingest::public_name(clip.name, clip.label), dataset.motion(clips[i]));
         progress.update(static_cast<double>(i + 1) / static_cast<double>(clips.size()), i + 1);
     }
     writer.finish();

@@ -1,15 +1,25 @@
 // actformer ingest: raw motion capture to checksummed shards.
-#include "cli/ingest.hpp"
-
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "ingest/formats/formats.hpp"
+#include "ingest/pipeline/pipeline.hpp"
 
 namespace actformer::cli {
 namespace {
+
+/// What every ingest takes.
+struct IngestOptions {
+    std::vector<std::string> raw;
+    std::string out, device;
+    unsigned threads = 0;
+    bool strict = false, json = false;
+};
 
 std::string left_out_text(const std::string& kind) {
     if (kind == "broken") return "broken";
@@ -30,8 +40,12 @@ void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
         fmt::print("  {}: {} of {} in {}, {}, {}\n", d.folder, counted(d.clips, "clip"),
                    counted(d.classes, "class"), counted(d.shards, "shard"), counted(d.frames, "frame"),
                    bytes(d.bytes));
+    for (const auto& remark : s.remarks) fmt::print("  {}\n", remark);
+    for (const auto& doubt : s.doubts)
+        fmt::print("  {}: {} ({}{})\n", counted(doubt.clips, "clip"), doubt.what,
+                   fmt::join(doubt.first, ", "), doubt.clips > doubt.first.size() ? ", ..." : "");
     for (const auto& [kind, count] : s.left_out)
-        fmt::print("  left out: {} {}\n", counted(count, "file"), left_out_text(kind));
+        fmt::print("  left out: {} {}\n", counted(count, "clip"), left_out_text(kind));
     for (const auto& line : s.first_rejections) fmt::print("    {}\n", line);
     if (!s.left_out.empty()) fmt::print("  all of them, with reasons: {}/rejected.csv\n", options.out);
 }
@@ -40,7 +54,10 @@ void print_json(const ingest::IngestSummary& s, const IngestOptions& options) {
     nlohmann::ordered_json json{{"out", options.out},         {"complete_before", s.was_complete},
                                 {"files", s.files},           {"resumed_files", s.resumed_files},
                                 {"text_bytes", s.text_bytes}, {"left_out", s.left_out},
-                                {"seconds", s.seconds.wall}};
+                                {"remarks", s.remarks},       {"seconds", s.seconds.wall}};
+    json["doubts"] = nlohmann::ordered_json::array();
+    for (const auto& d : s.doubts)
+        json["doubts"].push_back({{"what", d.what}, {"clips", d.clips}, {"first", d.first}});
     json["datasets"] = nlohmann::ordered_json::array();
     for (const auto& d : s.datasets)
         json["datasets"].push_back({{"folder", d.folder},
@@ -52,9 +69,7 @@ void print_json(const ingest::IngestSummary& s, const IngestOptions& options) {
     fmt::print("{}\n", json.dump(2));
 }
 
-}  // namespace
-
-void add_ingest_options(CLI::App* command, IngestOptions& options) {
+void add_common(CLI::App* command, IngestOptions& options) {
     command->add_option("raw", options.raw, "Folders, files, .zip or .tar.* archives")
         ->required()
         ->type_name("RAW");
@@ -65,31 +80,65 @@ void add_ingest_options(CLI::App* command, IngestOptions& options) {
     command->add_flag("--json", options.json, "Print the summary as JSON");
 }
 
-void run_ingest(const IngestOptions& options, const ingest::Format& format, bool one_dataset,
-                std::unordered_set<std::string> missing) {
-    kernels::Device device(options.device);
-    Progress progress("ingest", "clips");
+CLI::Option* add_value(CLI::App* command, const ingest::Option& option) {
+    if (auto* const* flag = std::get_if<bool*>(&option.value))
+        return command->add_flag(option.flag, **flag, option.help);
+    return std::visit([&](auto* value) { return command->add_option(option.flag, *value, option.help); },
+                      option.value);
+}
+
+void add_own(CLI::App* command, const ingest::Option& option) {
+    auto* added = add_value(command, option);
+    if (!option.placeholder.empty()) added->type_name(option.placeholder);
+    if (!option.choices.empty()) added->check(CLI::IsMember(option.choices));
+    if (option.is_required) added->required();
+    if (option.shows_default) added->capture_default_str();
+    if (std::holds_alternative<std::vector<std::string>*>(option.value))
+        added->allow_extra_args(false);  // or it would take the RAW that may follow
+    if (option.splits_at_commas) added->delimiter(',');
+}
+
+/// The last part of DIR names a format's only dataset.
+std::string dataset_name(const std::filesystem::path& out) {
+    return std::filesystem::absolute(out).lexically_normal().filename().string();
+}
+
+void run(const IngestOptions& options, const ingest::FormatEntry& entry,
+         const ingest::IngestCommand& command) {
     ingest::IngestRequest request;
     request.raw.assign(options.raw.begin(), options.raw.end());
     request.out = options.out;
     while (request.out.has_relative_path() && !request.out.has_filename())
         request.out = request.out.parent_path();
-    request.missing = std::move(missing);
     request.strict = options.strict;
-    request.one_dataset = one_dataset;
+    request.one_dataset = entry.one_dataset;
     request.threads = options.threads;
+    const auto format = command.open(dataset_name(request.out));
+    kernels::Device device(options.device);
+    Progress progress("ingest", "clips");
     request.progress = [&](double fraction, std::uint64_t clips) { progress.update(fraction, clips); };
-    const auto summary = ingest::ingest(request, format, device);
+    const auto summary = ingest::ingest(request, *format, device);
     progress.clear();
     options.json ? print_json(summary, options) : print_text(summary, options);
 }
+
+void add_format(CLI::App& ingest, const ingest::FormatEntry& entry) {
+    const std::shared_ptr<ingest::IngestCommand> own = entry.command();
+    const auto options = std::make_shared<IngestOptions>();
+    auto* command = ingest.add_subcommand(std::string(entry.name), std::string(entry.help));
+    add_common(command, *options);
+    for (const auto& option : own->list()) add_own(command, option);
+    examples(command, std::string(entry.examples));
+    command->callback([options, own, &entry] { run(*options, entry, *own); });
+}
+
+}  // namespace
 
 void add_ingest(CLI::App& app) {
     auto* command =
         app.add_subcommand("ingest", "Clean raw motion capture and write it as checksummed HDF5 shards");
     command->require_subcommand(1);
-    add_ingest_ntu(*command);
-    add_ingest_bvh(*command);
+    for (const auto& entry : ingest::formats()) add_format(*command, entry);
 }
 
 }  // namespace actformer::cli

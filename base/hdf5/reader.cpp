@@ -69,6 +69,11 @@ Shape Reader::shape(const std::string& name) const {
     return shape;
 }
 
+std::optional<std::uint64_t> Reader::offset(const std::string& name) const {
+    const auto at = H5Dget_offset(open(name).get());
+    return at == HADDR_UNDEF ? std::nullopt : std::optional<std::uint64_t>(at);
+}
+
 std::size_t Reader::elements(const Shape& shape) {
     return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }

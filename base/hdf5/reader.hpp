@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ class Reader {
     bool is_array(const std::string& name) const;
     bool has(const std::string& name) const;
     Shape shape(const std::string& name) const;
+
+    /// Where in the file an array begins that lies there in one piece; none of others.
+    std::optional<std::uint64_t> offset(const std::string& name) const;
 
     template <typename T>
     std::vector<T> read(const std::string& name) const {

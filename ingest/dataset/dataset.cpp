@@ -8,7 +8,6 @@
 #include "base/hdf5/reader.hpp"
 #include "ingest/dataset/dataset_json.hpp"
 #include "ingest/dataset/shard.hpp"
-#include "ingest/formats/ntu/name.hpp"
 
 namespace actformer::ingest {
 namespace fs = std::filesystem;
@@ -108,10 +107,6 @@ std::vector<float> Dataset::bone_length(std::size_t clip) const {
 
 BodyModel Dataset::body(std::size_t clip) const {
     return {header_.representation, header_.topology, bone_length(clip), header_.rest};
-}
-
-std::string Dataset::public_name(std::size_t clip) const {
-    return renumbered(clips_.at(clip).name, clips_[clip].label);
 }
 
 std::vector<std::string> verify_dataset(const fs::path& folder) {

@@ -74,9 +74,6 @@ class Dataset {
     std::vector<float> bone_length(std::size_t clip) const;  ///< (persons, joints) metres
     BodyModel body(std::size_t clip) const;                  ///< what gives its joint positions
 
-    /// Clip names as the public tools spell them: the action renumbered to the label for NTU, else the name.
-    std::string public_name(std::size_t clip) const;
-
   private:
     const hdf5::Reader& shard_of(const Clip& clip) const;
 

@@ -7,6 +7,14 @@
 
 namespace actformer::ingest {
 
+std::string public_name(const std::string& name, std::uint32_t label) {
+    constexpr std::size_t digits = 3;
+    const auto numbered = name.find_last_not_of("0123456789");
+    if (numbered == std::string::npos || name[numbered] != 'A' || numbered + 1 + digits != name.size())
+        return name;
+    return fmt::format("{}{:03}", name.substr(0, numbered + 1), label + 1);
+}
+
 struct MotionsFile::Handle {
     hdf5::Reader reader;
 };

@@ -13,6 +13,9 @@
 
 namespace actformer::ingest {
 
+/// A clip's name as the public tools expect it: where it ends in A and three digits, as NTU's do, these become label + 1.
+std::string public_name(const std::string& name, std::uint32_t label);
+
 /// Reads motions one at a time. Throws Error for a file that is not in the public layout.
 class MotionsFile {
   public:

@@ -29,6 +29,12 @@ void ShardBuilder::add(const std::vector<Clip>& clips, kernels::CleanedBatch cle
     pieces_.push_back(std::move(cleaned));
 }
 
+std::uint64_t ShardBuilder::bytes() const {
+    std::uint64_t numbers = 0;
+    for (const auto& piece : pieces_) numbers += piece.motion.size();
+    return numbers * sizeof(float);
+}
+
 void ShardBuilder::image(const std::string& settings, const std::string& fingerprint,
                          const std::function<void(std::string_view)>& use) const {
     std::vector<std::span<const float>> motion;

@@ -29,6 +29,7 @@ class ShardBuilder {
 
     std::size_t clips() const { return clips_.size(); }
     std::uint64_t frames() const { return frames_; }
+    std::uint64_t bytes() const;  ///< of motion, about
     bool empty() const { return clips_.empty(); }
 
     /// Calls `use` with the file's bytes, marked with what it was made from.

@@ -17,8 +17,10 @@ inline constexpr std::uint64_t files_a_group = 256, bytes_a_group = std::uint64_
 /// One raw file on its way through a group.
 struct Item {
     RawFile file;
-    std::string checksum;  ///< of its text
-    ParsedClip clip = Rejection{};
+    std::string checksum;           ///< of its text
+    std::vector<ParsedClip> clips;  ///< parsed and not yet taken, in the file's order
+    std::size_t bytes = 0;          ///< of these
+    bool done = false;              ///< the file holds no more
     double read_seconds = 0, parse_seconds = 0;
 };
 
@@ -39,7 +41,7 @@ class Groups {
         while (more() && group.items.size() < files_a_group && bytes < bytes_a_group && !group.ends_tranche) {
             bytes += ahead_.size;
             tranche_bytes_ += ahead_.size;
-            group.items.push_back({std::move(ahead_), {}, Rejection{}, 0, 0});
+            group.items.push_back({std::move(ahead_), {}, {}, 0, false, 0, 0});
             have_ahead_ = false;
             group.ends_tranche = ++tranche_files_ >= files_a_tranche || tranche_bytes_ >= bytes_a_tranche;
         }

@@ -19,7 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Tranche& tranche) {
-    Json left_out = Json::array(), shards = Json::array();
+    Json left_out = Json::array(), doubts = Json::array(), shards = Json::array();
+    for (const auto& one : tranche.doubts) doubts.push_back({one.doubt, one.clip});
     for (const auto& one : tranche.left_out)
         left_out.push_back({one.path, static_cast<int>(one.rejection.kind), one.rejection.reason});
     for (const auto& [dataset, shard] : tranche.shards)
@@ -28,13 +29,16 @@ Json to_json(const Tranche& tranche) {
             {"text_bytes", tranche.text_bytes},
             {"fingerprint", tranche.fingerprint},
             {"left_out", left_out},
+            {"doubts", doubts},
             {"shards", shards},
-            {"names", tranche.names}};
+            {"names", tranche.names},
+            {"labels", tranche.labels}};
 }
 
 Tranche tranche_from(const Json& json) {
-    Tranche tranche{json.at("files"), json.at("text_bytes"), json.at("fingerprint"), {}, {},
-                    json.at("names")};
+    Tranche tranche{json.at("files"), json.at("text_bytes"), json.at("fingerprint"), {}, {}, {},
+                    json.at("names"), json.at("labels")};
+    for (const auto& one : json.at("doubts")) tranche.doubts.push_back({one.at(0), one.at(1)});
     for (const auto& one : json.at("left_out"))
         tranche.left_out.push_back(
             {one.at(0), {static_cast<Rejection::Kind>(one.at(1).get<int>()), one.at(2)}});

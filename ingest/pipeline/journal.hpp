@@ -3,7 +3,7 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,10 +13,15 @@
 
 namespace actformer::ingest {
 
-/// A file that gave no clip.
+/// What gave no clip, of a file or all of it.
 struct LeftOut {
     std::string path;
     Rejection rejection;
+};
+
+/// A clip that was kept although something about it is doubtful.
+struct Doubtful {
+    std::string doubt, clip;
 };
 
 /// What became of one tranche of raw files.
@@ -24,9 +29,12 @@ struct Tranche {
     std::uint64_t files = 0, text_bytes = 0;
     std::string fingerprint;  ///< of all raw text up to its end
     std::vector<LeftOut> left_out;
+    std::vector<Doubtful> doubts;
     std::vector<std::pair<std::size_t, ShardEntry>>
         shards;                      ///< dataset number, shard with its path below data()
     std::vector<std::string> names;  ///< of the clips kept
+    std::set<std::pair<std::size_t, std::uint32_t>>
+        labels;  ///< dataset number, label: those that clips kept have
 };
 
 /// The working folder OUT.partial, held by one process at a time.

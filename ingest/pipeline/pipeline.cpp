@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <set>
+#include <unordered_set>
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
@@ -11,6 +12,7 @@
 #include "base/threads/worker.hpp"
 #include "ingest/dataset/dataset_json.hpp"
 #include "ingest/dataset/shard.hpp"
+#include "ingest/pipeline/empty_classes.hpp"
 #include "ingest/pipeline/groups.hpp"
 #include "ingest/pipeline/journal.hpp"
 #include "ingest/pipeline/parsers.hpp"
@@ -21,7 +23,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t groups_at_once = 2;  // in memory as text
-constexpr std::size_t groups_ahead = 6;    // parsed and waiting to be cleaned: enough to ride out a slow one
+constexpr std::size_t portions_ahead = 6;  // parsed and waiting to be cleaned: enough to ride out a slow one
+
+// Clips are cleaned together up to a group's end or so many bytes, and a shard is closed at a tranche's end or beyond so many.
+// Both depend on the clips alone, so that the output does not depend on which thread was fast.
+constexpr std::size_t most_cleaned_at_once = std::size_t{64} << 20;
+constexpr std::size_t most_in_a_shard = std::size_t{128} << 20;
 
 using Clock = std::chrono::steady_clock;
 
@@ -31,17 +38,13 @@ double seconds_since(Clock::time_point start) {
 
 class Ingest {
   public:
-    Ingest(const IngestRequest& request, const Format& format, kernels::Device& device)
-        : request_(request), format_(format), device_(device), threads_(thread_count(request.threads)) {
-        for (const auto& header : format.datasets()) {
-            shards_.emplace_back(header);
-            shard_count_.push_back(0);
-        }
-    }
+    Ingest(const IngestRequest& request, Format& format, kernels::Device& device)
+        : request_(request), format_(format), device_(device), threads_(thread_count(request.threads)) {}
 
     IngestSummary run() {
         const auto start = Clock::now();
-        Source source(request_.raw, format_.extension());
+        settle_format();
+        Source source(request_.raw, format_.extensions());
         summary_.seconds.walk = seconds_since(start);
         const auto wanted = request_line(source);
         const auto aside = fs::path(request_.out.string() + ".partial");
@@ -71,12 +74,43 @@ class Ingest {
     }
 
   private:
+    /// Shows the format all files if it asks for that.
+    void settle_format() {
+        const auto wanted = format_.surveys();
+        if (wanted != Format::Survey::nothing) {
+            Source source(request_.raw, format_.extensions());
+            wanted == Format::Survey::names ? survey_names(source) : survey_texts(source);
+        }
+        format_.settle();
+        for (const auto& header : format_.datasets()) {
+            shards_.emplace_back(header);
+            shard_count_.push_back(0);
+        }
+        pending_.resize(format_.datasets().size());
+    }
+
+    void survey_names(Source& source) {
+        for (RawFile file; source.next_name(file);)
+            if (!format_.refuse(file.raw())) format_.survey(file.raw());
+    }
+
+    void survey_texts(Source& source) {
+        Groups groups(source, static_cast<double>(source.bytes_total()));
+        std::vector<std::vector<char>> scratch(threads_);
+        for (Group group; groups.next(group);)
+            parallel_for(group.items.size(), threads_, [&](std::size_t i, unsigned thread) {
+                const auto& file = group.items[i].file;
+                if (format_.refuse(file.raw())) return;
+                try {
+                    format_.survey(file.raw(file.text(scratch[thread])));
+                } catch (const Error&) {  // it cannot be read, and is rejected when it is to be parsed
+                }
+            });
+    }
+
     std::string request_line(const Source& source) const {
-        Checksum missing;
-        for (const auto& name : std::set<std::string>(request_.missing.begin(), request_.missing.end()))
-            missing.add(name + "\n");
-        return fmt::format("actformer {} | {} | raw {} | missing {}", ACTFORMER_VERSION, format_.settings(),
-                           source.listing(), missing.hex());
+        return fmt::format("actformer {} | {} | raw {}", ACTFORMER_VERSION, format_.settings(),
+                           source.listing());
     }
 
     fs::path folder_of(std::size_t dataset) const {
@@ -110,16 +144,16 @@ class Ingest {
         for (const auto& [dataset, shard] : tranche.shards) ++shard_count_[dataset];
     }
 
-    /// Parsing some groups, cleaning those before them and writing the tranche before that overlap.
+    /// Parsing some groups, cleaning what came before and writing the tranche before that overlap.
     void read_everything(Workplace& workplace, Source& source) {
         Groups groups(source, static_cast<double>(source.bytes_total()));
-        Worker writer(1), cleaner(groups_ahead);
-        Parsers parsers(threads_, [this](Item& item, std::vector<char>& text) { parse(item, text); });
+        Worker writer(1), cleaner(portions_ahead);
+        Parsers parsers(threads_, [this](Item& item, ClipSink& sink, std::vector<char>& text) {
+            parse(item, sink, text);
+        });
         const auto hand_on = [&] {
-            cleaner.add([this, &workplace, &writer, g = parsers.take()]() mutable {
-                clean(g);
-                if (g.ends_tranche) commit(workplace, writer);
-                if (request_.progress) request_.progress(g.fraction, clips_done_);
+            cleaner.add([this, &workplace, &writer, portion = parsers.take()]() mutable {
+                add(portion, workplace, writer);
             });
         };
         for (;;) {
@@ -129,70 +163,92 @@ class Ingest {
             summary_.seconds.walk += seconds_since(start);
             if (!any) break;
             parsers.add(std::move(group));
-            if (parsers.groups() == groups_at_once) hand_on();
+            while (parsers.groups() == groups_at_once) hand_on();
         }
         while (parsers.groups() > 0) hand_on();
         cleaner.finish();
         writer.finish();
     }
 
-    void parse(Item& item, std::vector<char>& scratch) const {
-        if (request_.missing.contains(item.file.stem)) {
-            item.clip = Rejection{Rejection::Kind::missing, "named in the missing list"};
-            return;
-        }
+    void parse(Item& item, ClipSink& sink, std::vector<char>& scratch) const {
+        const auto& file = item.file;
+        if (auto refused = format_.refuse(file.raw())) return sink.take(std::move(*refused));
         const auto start = Clock::now();
         try {
-            const auto text = item.file.text(scratch);
+            const auto text = file.text(scratch);
             item.file.size = text.size();
             item.read_seconds = seconds_since(start);
             item.checksum = checksum(text);
-            item.clip = format_.parse({item.file.path, item.file.stem, text});
+            format_.read(file.raw(text), sink);
             item.parse_seconds = seconds_since(start) - item.read_seconds;
         } catch (const Error& e) {
             std::string why = e.what();
-            if (why.starts_with(item.file.path + ": ")) why.erase(0, item.file.path.size() + 2);
-            item.clip = Rejection{Rejection::Kind::broken, why};
+            if (why.starts_with(file.path + ": ")) why.erase(0, file.path.size() + 2);
+            sink.take(Rejection{Rejection::Kind::broken, why});
         }
         item.file.bytes = {};
     }
 
-    void clean(Group& group) {
+    /// Takes what was parsed, and cleans it as soon as it is enough.
+    void add(Portion& portion, Workplace& workplace, Worker& writer) {
         const auto start = Clock::now();
-        std::vector<std::vector<std::unique_ptr<RawClip>>> clips(format_.datasets().size());
-        Checksum chain;
-        chain.add(fingerprint_);
-        for (auto& item : group.items) {
-            chain.add(fmt::format("{} {} {}\n", item.file.stem, item.file.size, item.checksum));
-            ++tranche_.files;
-            tranche_.text_bytes += item.checksum.empty() ? 0 : item.file.size;
-            summary_.seconds.read += item.read_seconds;
-            summary_.seconds.parse += item.parse_seconds;
-            keep_or_leave(item, clips);
+        for (auto& item : portion.items) {
+            for (auto& clip : item.clips) {
+                keep_or_leave(item.file, clip);
+                if (pending_bytes_ >= most_cleaned_at_once) clean(workplace, writer);
+            }
+            if (item.done) count(item);
         }
-        fingerprint_ = chain.hex();
-        files_done_ += group.items.size();
-        for (std::size_t d = 0; d < clips.size(); ++d)
-            if (!clips[d].empty()) clean(d, clips[d]);
+        if (portion.ends_group) {
+            clean(workplace, writer);
+            fingerprint_ = Checksum().add(fingerprint_).add(std::exchange(group_files_, {})).hex();
+        }
         summary_.seconds.clean += seconds_since(start);
+        if (portion.ends_tranche) commit(workplace, writer);
+        if (request_.progress && portion.ends_group) request_.progress(portion.fraction, clips_done_);
     }
 
-    void keep_or_leave(Item& item, std::vector<std::vector<std::unique_ptr<RawClip>>>& clips) {
-        if (auto* clip = std::get_if<std::unique_ptr<RawClip>>(&item.clip)) {
-            if (names_.insert((*clip)->name).second) {
-                tranche_.names.push_back((*clip)->name);
-                ++clips_done_;
-                clips[(*clip)->dataset].push_back(std::move(*clip));
-                return;
-            }
-            item.clip = Rejection{Rejection::Kind::duplicate, "a clip of this name came before"};
+    void count(const Item& item) {
+        group_files_ += fmt::format("{} {} {}\n", item.file.stem, item.file.size, item.checksum);
+        ++tranche_.files;
+        ++files_done_;
+        tranche_.text_bytes += item.checksum.empty() ? 0 : item.file.size;
+        summary_.seconds.read += item.read_seconds;
+        summary_.seconds.parse += item.parse_seconds;
+    }
+
+    void keep_or_leave(const RawFile& file, ParsedClip& parsed) {
+        if (auto* clip = std::get_if<std::unique_ptr<RawClip>>(&parsed)) {
+            if (names_.insert((*clip)->name).second) return keep(std::move(*clip));
+            std::string place = (*clip)->name == file.stem ? "" : fmt::format("clip {}: ", (*clip)->name);
+            parsed = Rejection{Rejection::Kind::duplicate, place + "a clip of this name came before"};
         }
-        auto rejection = std::get<Rejection>(item.clip);
+        auto rejection = std::get<Rejection>(std::move(parsed));
         rejection.reason = printable(rejection.reason);
-        const auto path = printable(item.file.path);
+        const auto path = printable(file.path);
         if (request_.strict && rejection.kind == Rejection::Kind::broken)
             throw Error("{}: {} (--strict; without it such clips are skipped)", path, rejection.reason);
         tranche_.left_out.push_back({path, std::move(rejection)});
+    }
+
+    void keep(std::unique_ptr<RawClip> clip) {
+        tranche_.names.push_back(clip->name);
+        tranche_.labels.emplace(clip->dataset, clip->label);
+        for (const auto& doubt : clip->doubts) tranche_.doubts.push_back({doubt, clip->name});
+        ++clips_done_;
+        pending_bytes_ += clip->bytes();
+        pending_[clip->dataset].push_back(std::move(clip));
+    }
+
+    /// Cleans the clips that wait, and sends full shards to the disk.
+    void clean(const Workplace& workplace, Worker& writer) {
+        for (std::size_t d = 0; d < pending_.size(); ++d) {
+            if (pending_[d].empty()) continue;
+            clean(d, pending_[d]);
+            pending_[d].clear();
+            if (shards_[d].bytes() >= most_in_a_shard) send(d, workplace, writer);
+        }
+        pending_bytes_ = 0;
     }
 
     void clean(std::size_t dataset, const std::vector<std::unique_ptr<RawClip>>& raw) {
@@ -204,21 +260,25 @@ class Ingest {
         shards_[dataset].add(clips, std::move(cleaned));
     }
 
+    /// Writes a dataset's shard while the next one is made. It is marked with the fingerprint of all whole groups before its end.
+    void send(std::size_t dataset, const Workplace& workplace, Worker& writer) {
+        auto shard = std::exchange(shards_[dataset], ShardBuilder(format_.datasets()[dataset]));
+        writer.add([this, &workplace, dataset, shard = std::move(shard), fingerprint = fingerprint_] {
+            const auto start = Clock::now();
+            written_.emplace_back(dataset, write(workplace, dataset, shard, fingerprint));
+            summary_.seconds.write += seconds_since(start);
+        });
+    }
+
     /// Ends a tranche: its shards go to disk and it is noted down, while the next one is read.
     void commit(Workplace& workplace, Worker& writer) {
+        for (std::size_t d = 0; d < shards_.size(); ++d)
+            if (!shards_[d].empty()) send(d, workplace, writer);
         tranche_.fingerprint = fingerprint_;
-        std::vector<ShardBuilder> shards;
-        for (const auto& header : format_.datasets()) shards.emplace_back(header);
-        shards.swap(shards_);
-        writer.add(
-            [this, &workplace, shards = std::move(shards), tranche = std::exchange(tranche_, {})]() mutable {
-                const auto start = Clock::now();
-                for (std::size_t d = 0; d < shards.size(); ++d)
-                    if (!shards[d].empty())
-                        tranche.shards.emplace_back(d, write(workplace, d, shards[d], tranche.fingerprint));
-                workplace.finish(std::move(tranche));
-                summary_.seconds.write += seconds_since(start);
-            });
+        writer.add([this, &workplace, tranche = std::exchange(tranche_, {})]() mutable {
+            tranche.shards = std::exchange(written_, {});
+            workplace.finish(std::move(tranche));
+        });
     }
 
     ShardEntry write(const Workplace& workplace, std::size_t dataset, const ShardBuilder& shard,
@@ -244,10 +304,13 @@ class Ingest {
                         summary_.first_rejections.empty() ? "" : "; the first: ",
                         summary_.first_rejections.empty() ? "" : summary_.first_rejections[0]);
         }
+        summary_.remarks = format_.remarks();
         for (std::size_t d = 0; d < format_.datasets().size(); ++d) {
-            const auto file = dataset_file(d, tranches);
+            auto file = dataset_file(d, tranches);
             if (file.shards.empty()) continue;
-            write_whole(workplace.data() / folder_of(d) / "dataset.json", to_text(file));
+            const auto folder = workplace.data() / folder_of(d);
+            if (format_.drops_empty_classes()) drop_classes(d, file, tranches, folder);
+            write_whole(folder / "dataset.json", to_text(file));
             add_dataset(file, (request_.out / folder_of(d)).lexically_normal(), summary_);
         }
         write_whole(workplace.data() / "rejected.csv", rejected_csv(tranches));
@@ -255,6 +318,19 @@ class Ingest {
             workplace.data() / "ingest.json",
             record_text({format_.settings(), checksum(wanted), fingerprint_}, request_.out, summary_));
         workplace.deliver(request_.out);
+    }
+
+    void drop_classes(std::size_t dataset, DatasetFile& file, const std::vector<Tranche>& tranches,
+                      const fs::path& folder) {
+        std::set<std::uint32_t> labels;
+        for (const auto& tranche : tranches)
+            for (const auto& [owner, label] : tranche.labels)
+                if (owner == dataset) labels.insert(label);
+        const auto dropped = drop_empty_classes(file, labels, folder);
+        if (!dropped.empty())
+            summary_.remarks.push_back(fmt::format("no clip was left of {}: {} not among the classes",
+                                                   fmt::join(dropped, ", "),
+                                                   dropped.size() == 1 ? "it is" : "they are"));
     }
 
     DatasetFile dataset_file(std::size_t dataset, const std::vector<Tranche>& tranches) const {
@@ -269,13 +345,17 @@ class Ingest {
     }
 
     const IngestRequest& request_;
-    const Format& format_;
+    Format& format_;
     kernels::Device& device_;
     unsigned threads_;
     IngestSummary summary_;
-    std::vector<ShardBuilder> shards_;      ///< of the tranche in hand, one a dataset
-    std::vector<std::size_t> shard_count_;  ///< shards written so far, one a dataset
+    std::vector<std::vector<std::unique_ptr<RawClip>>> pending_;  ///< (datasets) parsed and not yet cleaned
+    std::size_t pending_bytes_ = 0;
+    std::vector<ShardBuilder> shards_;                         ///< (datasets) in the making
+    std::vector<std::size_t> shard_count_;                     ///< (datasets) shards written so far
+    std::vector<std::pair<std::size_t, ShardEntry>> written_;  ///< of the tranche in hand; the writer's own
     Tranche tranche_;
+    std::string group_files_;  ///< names and checksums of the group in hand
     std::string fingerprint_;
     std::unordered_set<std::string> names_;
     std::uint64_t files_done_ = 0, clips_done_ = 0;
@@ -283,7 +363,7 @@ class Ingest {
 
 }  // namespace
 
-IngestSummary ingest(const IngestRequest& request, const Format& format, kernels::Device& device) {
+IngestSummary ingest(const IngestRequest& request, Format& format, kernels::Device& device) {
     return Ingest(request, format, device).run();
 }
 

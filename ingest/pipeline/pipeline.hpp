@@ -1,6 +1,7 @@
 // From raw files to datasets: reads, parses, cleans and writes shards, a tranche of files at a time, and goes on
 // after an interruption where the last whole tranche ended.
 //
+//   Source -> [survey, where the format asks for it]
 //   Source -> [parse on every core] -> [clean on the device] -> ShardBuilder -> shard file, journal line
 //
 // All is put together in OUT.partial and renamed to OUT at the end. How files fall into tranches depends on the source alone, so
@@ -12,7 +13,6 @@
 #include <functional>
 #include <map>
 #include <string>
-#include <unordered_set>
 #include <vector>
 
 #include "ingest/formats/format.hpp"
@@ -22,10 +22,9 @@ namespace actformer::ingest {
 struct IngestRequest {
     std::vector<std::filesystem::path> raw;
     std::filesystem::path out;
-    std::unordered_set<std::string> missing;  ///< clip names to leave out
-    bool strict = false;                      ///< a broken clip is an error
-    bool one_dataset = false;                 ///< OUT itself is the dataset, in place of OUT/NAME
-    unsigned threads = 0;                     ///< 0: all cores
+    bool strict = false;       ///< a broken clip is an error
+    bool one_dataset = false;  ///< OUT itself is the dataset, in place of OUT/NAME
+    unsigned threads = 0;      ///< 0: all cores
     std::function<void(double fraction, std::uint64_t clips)> progress;
 };
 
@@ -36,9 +35,18 @@ struct IngestSummary {
         std::size_t shards = 0, classes = 0;
     };
     std::uint64_t files = 0, text_bytes = 0;
-    std::map<std::string, std::uint64_t> left_out;  ///< kind of rejection -> files
+    std::map<std::string, std::uint64_t> left_out;  ///< kind of rejection -> how many
     std::vector<PerDataset> datasets;
     std::vector<std::string> first_rejections;  ///< a few, "path: reason", for the eye
+    std::vector<std::string> remarks;           ///< on the data as a whole
+
+    /// What is doubtful about clips that were kept.
+    struct Doubt {
+        std::string what;
+        std::uint64_t clips = 0;
+        std::vector<std::string> first;  ///< names of a few of them
+    };
+    std::vector<Doubt> doubts;
     bool was_complete = false;        ///< OUT had been finished by an earlier run of the same request
     std::uint64_t resumed_files = 0;  ///< taken over from an interrupted run
 
@@ -49,7 +57,7 @@ struct IngestSummary {
 };
 
 /// Throws Error where nothing could be ingested, something wider than a clip is wrong, or OUT is taken.
-IngestSummary ingest(const IngestRequest& request, const Format& format, kernels::Device& device);
+IngestSummary ingest(const IngestRequest& request, Format& format, kernels::Device& device);
 
 /// "broken", "dropped", "missing", "duplicate"
 std::string_view kind_name(Rejection::Kind kind);

@@ -1,5 +1,7 @@
 #include "ingest/pipeline/record.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 
@@ -12,6 +14,16 @@ std::string csv_field(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
     return out + "\"";
+}
+
+constexpr std::size_t shown = 3;  // names and reasons, of however many
+
+void add_doubt(const Doubtful& one, std::vector<IngestSummary::Doubt>& doubts) {
+    auto found =
+        std::find_if(doubts.begin(), doubts.end(), [&](const auto& d) { return d.what == one.doubt; });
+    if (found == doubts.end()) found = doubts.insert(found, {one.doubt, 0, {}});
+    ++found->clips;
+    if (found->first.size() < shown) found->first.push_back(one.clip);
 }
 
 }  // namespace
@@ -36,9 +48,10 @@ void add_up(const std::vector<Tranche>& tranches, IngestSummary& summary) {
         summary.text_bytes += tranche.text_bytes;
         for (const auto& [path, rejection] : tranche.left_out) {
             ++summary.left_out[std::string(kind_name(rejection.kind))];
-            if (summary.first_rejections.size() < 3 && rejection.kind == Rejection::Kind::broken)
+            if (summary.first_rejections.size() < shown && rejection.kind == Rejection::Kind::broken)
                 summary.first_rejections.push_back(path + ": " + rejection.reason);
         }
+        for (const auto& one : tranche.doubts) add_doubt(one, summary.doubts);
     }
 }
 
@@ -69,7 +82,11 @@ std::string record_text(const Origin& origin, const fs::path& out, const IngestS
                                 {"files", summary.files},
                                 {"text_bytes", summary.text_bytes},
                                 {"left_out", summary.left_out},
-                                {"first_rejections", summary.first_rejections}};
+                                {"first_rejections", summary.first_rejections},
+                                {"remarks", summary.remarks}};
+    json["doubts"] = nlohmann::ordered_json::array();
+    for (const auto& d : summary.doubts)
+        json["doubts"].push_back({{"what", d.what}, {"clips", d.clips}, {"first", d.first}});
     json["datasets"] = nlohmann::ordered_json::array();
     for (const auto& d : summary.datasets)
         json["datasets"].push_back(
@@ -93,6 +110,9 @@ bool read_record(const fs::path& out, const std::string& request, IngestSummary&
     summary.text_bytes = json.at("text_bytes");
     summary.left_out = json.at("left_out").get<std::map<std::string, std::uint64_t>>();
     summary.first_rejections = json.at("first_rejections").get<std::vector<std::string>>();
+    summary.remarks = json.at("remarks").get<std::vector<std::string>>();
+    for (const auto& d : json.at("doubts"))
+        summary.doubts.push_back({d.at("what"), d.at("clips"), d.at("first")});
     for (const auto& d : json.at("datasets"))
         summary.datasets.push_back({(out / d.at("folder").get<std::string>()).lexically_normal().string(),
                                     d.at("clips"), d.at("frames"), d.at("bytes"), d.at("shards"),

@@ -20,11 +20,20 @@ namespace {
 // Far above any real clip; keeps a hostile archive member from eating the memory.
 constexpr std::uint64_t largest_text = std::uint64_t{128} << 20;
 
-bool has_extension(const std::string& name, std::string_view extension) {
+using Extensions = std::vector<std::string>;
+
+bool ends_in(const std::string& name, std::string_view extension) {
     if (name.size() <= extension.size()) return false;
     return std::equal(extension.begin(), extension.end(),
                       name.end() - static_cast<std::ptrdiff_t>(extension.size()),
                       [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
+}
+
+/// The length of the one of `extensions` that `name` ends in; 0 where it ends in none.
+std::size_t extension_of(const std::string& name, const Extensions& extensions) {
+    for (const auto& extension : extensions)
+        if (ends_in(name, extension)) return extension.size();
+    return 0;
 }
 
 std::string file_name(const std::string& path) {
@@ -32,14 +41,14 @@ std::string file_name(const std::string& path) {
 }
 
 /// A file of the format, and not one of the "._" companions that some archivers add.
-bool is_wanted(const std::string& path, std::string_view extension) {
+bool is_wanted(const std::string& path, const Extensions& extensions) {
     const auto name = file_name(path);
-    return !name.starts_with("._") && has_extension(name, extension);
+    return !name.starts_with("._") && extension_of(name, extensions) > 0;
 }
 
-std::string stem_of(const std::string& path, std::string_view extension) {
+std::string stem_of(const std::string& path, const Extensions& extensions) {
     const auto name = file_name(path);
-    return name.substr(0, name.size() - extension.size());
+    return name.substr(0, name.size() - extension_of(name, extensions));
 }
 
 /// One archive, read front to back.
@@ -55,7 +64,7 @@ class Archive {
     }
 
     /// Moves to the next wanted member; false at the end.
-    bool next(std::string_view extension, RawFile& file) {
+    bool next(const Extensions& extensions, RawFile& file) {
         for (;;) {
             archive_entry* entry = nullptr;
             const int result = archive_read_next_header(reader_.get(), &entry);
@@ -64,9 +73,10 @@ class Archive {
             const char* name = archive_entry_pathname(entry);
             if (!name) name = archive_entry_pathname_utf8(entry);
             member_ = name ? name : "(a name that cannot be read)";
-            if (archive_entry_filetype(entry) != AE_IFREG || !is_wanted(member_, extension)) continue;
+            if (archive_entry_filetype(entry) != AE_IFREG || !is_wanted(member_, extensions)) continue;
             file.path = path_.string() + ":" + member_;
-            file.stem = stem_of(member_, extension);
+            file.stem = stem_of(member_, extensions);
+            file.inside = member_;
             file.in_memory = true;
             file.unreadable.clear();
             file.bytes.clear();
@@ -127,13 +137,13 @@ struct Item {
     std::int64_t changed = 0;  ///< nanoseconds
 };
 
-void add_files_below(const fs::path& folder, std::size_t given, std::string_view extension,
+void add_files_below(const fs::path& folder, std::size_t given, const Extensions& extensions,
                      std::vector<Item>& items) {
     const auto before = static_cast<std::ptrdiff_t>(items.size());
     std::error_code error;
     for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         std::error_code ignored;  // a file that cannot be looked at is rejected when it is read
-        if (is_wanted(it->path().native(), extension) && !it->is_directory(ignored))
+        if (is_wanted(it->path().native(), extensions) && !it->is_directory(ignored))
             items.push_back({it->path().native(), given});
     }
     if (error) throw Error("{}: the folder cannot be read: {}", folder.string(), error.message());
@@ -160,24 +170,34 @@ std::string_view RawFile::text(std::vector<char>& scratch) const {
 }
 
 struct Source::State {
-    std::string extension;
+    Extensions extensions;
     std::vector<fs::path> given;
     std::vector<Item> items;
     std::size_t at = 0;
-    std::uint64_t passed = 0;
+    std::uint64_t files = 0, passed = 0;
     std::unique_ptr<Archive> archive;
+
+    /// The path of a file below the folder it was found in; of a file given by itself, as it was given.
+    std::string inside(const Item& item) const {
+        const auto& folder = given[item.given].native();
+        if (folder.size() >= item.path.size()) return item.path;
+        return item.path.substr(item.path.find_first_not_of('/', folder.size()));
+    }
 
     bool step(RawFile& file, bool with_bytes) {
         for (; at < items.size(); ++at) {
             const auto& item = items[at];
             if (!item.archive) {
-                file = RawFile{item.path, stem_of(item.path, extension), item.bytes, false, {}, {}};
+                file = RawFile{
+                    item.path, stem_of(item.path, extensions), inside(item), files++, item.bytes, false, {},
+                    {}};
                 passed += item.bytes;
                 ++at;
                 return true;
             }
             if (!archive) archive = std::make_unique<Archive>(item.path);
-            if (archive->next(extension, file)) {
+            if (archive->next(extensions, file)) {
+                file.index = files++;
                 if (with_bytes) archive->read(file);
                 return true;
             }
@@ -188,17 +208,18 @@ struct Source::State {
     }
 };
 
-Source::Source(const std::vector<fs::path>& raw, std::string_view extension) : state_(new State) {
-    state_->extension = extension;
+Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_view>& extensions)
+    : state_(new State) {
+    state_->extensions.assign(extensions.begin(), extensions.end());
     state_->given = raw;
     for (std::size_t i = 0; i < raw.size(); ++i) {
         std::error_code error;
         const auto status = fs::status(raw[i], error);
         if (!fs::exists(status)) throw Error("{}: no such file or folder", raw[i].string());
         if (fs::is_directory(status)) {
-            add_files_below(raw[i], i, extension, state_->items);
+            add_files_below(raw[i], i, state_->extensions, state_->items);
         } else {
-            const bool archive = !has_extension(raw[i].string(), extension);
+            const bool archive = extension_of(raw[i].string(), state_->extensions) == 0;
             if (archive)
                 const Archive opens(raw[i]);  // so that a wrong argument is said before any work is done
             state_->items.push_back({raw[i].string(), i, archive});
@@ -208,7 +229,7 @@ Source::Source(const std::vector<fs::path>& raw, std::string_view extension) : s
     if (state_->items.empty()) {
         std::string where;
         for (const auto& path : raw) where += (where.empty() ? "" : ", ") + path.string();
-        throw Error("{}: no {} file there", where, extension);
+        throw Error("{}: no {} file there", where, fmt::join(extensions, ", "));
     }
 }
 

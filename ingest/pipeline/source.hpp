@@ -8,26 +8,34 @@
 #include <string_view>
 #include <vector>
 
+#include "ingest/formats/format.hpp"
+
 namespace actformer::ingest {
 
 /// One file of a source: on disk to be read when wanted, or already in memory (out of an archive).
 struct RawFile {
-    std::string path;        ///< for messages: the file, or archive:member
-    std::string stem;        ///< file name without folder and extension
-    std::uint64_t size = 0;  ///< bytes of text
+    std::string path;  ///< for messages: the file, or archive:member
+    std::string stem;  ///< file name without folder and extension
+    std::string
+        inside;  ///< path below the folder or archive that was given; of a file that was given itself: as given
+    std::uint64_t index = 0;  ///< how many files come before it
+    std::uint64_t size = 0;   ///< bytes of text
     bool in_memory = false;
     std::vector<char> bytes;  ///< in_memory: the text and 64 zero bytes after it
     std::string unreadable;   ///< why it could not be read out of the archive; empty where it could
 
     /// The text, in `scratch` or in `bytes`, followed by 64 zero bytes. Throws Error where the file cannot be read.
     std::string_view text(std::vector<char>& scratch) const;
+
+    /// As formats see it, with `text` or by its name alone.
+    RawText raw(std::string_view text = {}) const { return {path, stem, text, inside, index}; }
 };
 
 /// Walks RAW paths in an order that depends on names alone: paths as given, folders sorted, archives as stored.
 class Source {
   public:
-    /// Throws Error where a path is missing or neither folder, archive nor a file with `extension`.
-    Source(const std::vector<std::filesystem::path>& raw, std::string_view extension);
+    /// Throws Error where a path is missing or neither folder, archive nor a file with one of `extensions`.
+    Source(const std::vector<std::filesystem::path>& raw, const std::vector<std::string_view>& extensions);
     ~Source();
 
     /// The next file; false at the end. Throws Error naming the archive and member where an archive is broken.

@@ -120,8 +120,9 @@ TEST_F(IngestNtu, RenumbersAndLabelsBothFamilies) {
         const Dataset dataset(fs::path(out()) / renumbered.second);
         const auto found = dataset.find("S001C001P001R001" + action);
         ASSERT_TRUE(found) << action;
-        EXPECT_EQ(dataset.public_name(*found), "S001C001P001R001" + renumbered.first);
-        EXPECT_EQ(dataset.clips()[*found].label + 1, std::stoul(renumbered.first.substr(1)));
+        const auto& clip = dataset.clips()[*found];
+        EXPECT_EQ(public_name(clip.name, clip.label), "S001C001P001R001" + renumbered.first);
+        EXPECT_EQ(clip.label + 1, std::stoul(renumbered.first.substr(1)));
     }
     EXPECT_EQ(Dataset(fs::path(out()) / "ntu-1p").header().classes.size(), 94U);
     EXPECT_EQ(Dataset(fs::path(out()) / "ntu-2p").header().classes.size(), 26U);

@@ -19,6 +19,8 @@ struct BvhClip : RawClip {
     std::uint32_t frames = 0;    ///< frames once resampled
     float step = 1;              ///< recorded frames an output frame
     std::vector<float> values;   ///< (channels, recorded)
+
+    std::size_t bytes() const override { return sizeof *this + sizeof(float) * values.size(); }
 };
 
 void check(const BvhOptions& options, const NamePattern& pattern) {
@@ -104,25 +106,51 @@ Rejection broken(std::string reason) {
 
 }  // namespace
 
-std::vector<std::string> actions_in(const std::vector<std::string>& stems, const NamePattern& pattern) {
-    std::set<std::string> actions;
-    for (const auto& stem : stems)
-        if (const auto values = pattern.match(stem)) actions.insert((*values)[pattern.action()]);
-    if (actions.empty())
-        throw Error("no file name fits the pattern '{}'; there is {}", printable(pattern.text()),
-                    stems.empty() ? "no file" : in_quotes(stems[0]));
-    return {actions.begin(), actions.end()};
+BvhFormat::BvhFormat(BvhOptions options) : options_(std::move(options)), pattern_(options_.pattern) {
+    check(options_, pattern_);
 }
 
-BvhFormat::BvhFormat(BvhOptions options, const std::vector<std::string>& actions, const BvhFile& example)
-    : options_(std::move(options)), pattern_(options_.pattern), source_fps_(example.fps()) {
-    check(options_, pattern_);
+void BvhFormat::survey(const RawText& raw) {
+    const auto fields = pattern_.match(raw.stem);
+    std::optional<std::variant<BvhFile, Rejection>> parsed;
+    if (fields) {
+        std::unique_lock lock(surveying_);
+        const bool wanted = !found_.example || raw.index < found_.example_index;
+        lock.unlock();
+        if (wanted) parsed = parse_bvh(raw.text);
+    }
+    const std::lock_guard lock(surveying_);
+    if (found_.first_name.empty() || raw.index < found_.first_index) {
+        found_.first_name = raw.stem;
+        found_.first_index = raw.index;
+    }
+    if (fields) found_.actions.insert((*fields)[pattern_.action()]);
+    if (!parsed) return;
+    if (auto* sound = std::get_if<BvhFile>(&*parsed)) {
+        if (found_.example && found_.example_index < raw.index) return;
+        found_.example = std::move(*sound);
+        found_.example_index = raw.index;
+    } else if (found_.fault.empty() || raw.index < found_.fault_index) {
+        found_.fault = fmt::format("{}: {}", raw.path, std::get<Rejection>(*parsed).reason);
+        found_.fault_index = raw.index;
+    }
+}
+
+void BvhFormat::settle() {
+    if (found_.actions.empty())
+        throw Error("no file name fits the pattern '{}'; there is {}", printable(pattern_.text()),
+                    found_.first_name.empty() ? "no file" : in_quotes(found_.first_name));
+    if (!found_.example)
+        throw Error("no BVH file is sound; the first fault is in {}",
+                    found_.fault.empty() ? "a file that cannot be read" : printable(found_.fault));
+    const auto& example = *found_.example;
+    source_fps_ = example.fps();
     DatasetHeader header;
     header.name = options_.dataset;
     header.topology = skeleton_below(example, root_of(options_, example), options_.end_sites).topology;
     header.fps = options_.fps > 0 ? options_.fps : source_fps_;
     header.centre_windows = options_.centre_windows;
-    header.classes = classes_of(options_, actions);
+    header.classes = classes_of(options_, {found_.actions.begin(), found_.actions.end()});
     header.fields = pattern_.fields();
     header.splits = options_.splits;
     datasets_.push_back(std::move(header));

@@ -1,7 +1,9 @@
 // BVH files of one skeleton as one dataset for the ingest pipeline.
 #pragma once
 
-#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <set>
 
 #include "ingest/formats/bvh/bvh_file.hpp"
 #include "ingest/formats/bvh/skeleton.hpp"
@@ -23,36 +25,49 @@ struct BvhOptions {
     std::vector<Split> splits;         ///< over the pattern's fields
 };
 
-/// One person a clip. All files must have the joints of `example`, in its order; offsets and channels may
-/// differ.
+/// One person a clip. All files must have the joints of the first sound one that fits the pattern, in its order; offsets and
+/// channels may differ.
 class BvhFormat : public Format {
   public:
-    /// `actions` are those in the files' names, sorted; the topology comes from `example`.
-    /// Throws Error where an option makes no sense, none of the classes is among the actions, or there is no
-    /// such root.
-    BvhFormat(BvhOptions options, const std::vector<std::string>& actions, const BvhFile& example);
+    /// Throws Error where an option makes no sense.
+    explicit BvhFormat(BvhOptions options);
 
-    std::string_view extension() const override { return ".bvh"; }
+    std::vector<std::string_view> extensions() const override { return {".bvh"}; }
+
+    Survey surveys() const override { return Survey::texts; }
+    void survey(const RawText& raw) override;
+
+    /// Takes the topology from the first sound file and the classes from the names. Throws Error where no name fits the pattern,
+    /// no file is sound, none of the classes is among the actions, or there is no such root.
+    void settle() override;
+
     const std::vector<DatasetHeader>& datasets() const override { return datasets_; }
     std::string settings() const override;
-    ParsedClip parse(const RawText& raw) const override;
+    void read(const RawText& raw, ClipSink& sink) const override { sink.take(parse(raw)); }
     kernels::CleanedBatch clean(kernels::Device& device, std::size_t dataset,
                                 std::span<const std::unique_ptr<RawClip>> clips,
                                 std::vector<std::uint32_t>& frames) const override;
 
+    ParsedClip parse(const RawText& raw) const;
+
   private:
+    /// What the survey has found so far.
+    struct Found {
+        std::set<std::string> actions;  ///< in the names, each once
+        std::string first_name;         ///< of the first file, fitting or not
+        std::uint64_t first_index = 0;
+        std::optional<BvhFile> example;  ///< the first sound file
+        std::uint64_t example_index = 0;
+        std::string fault;  ///< of the first file that fits and is not sound
+        std::uint64_t fault_index = 0;
+    };
+
     BvhOptions options_;
     NamePattern pattern_;
-    double source_fps_;  ///< of the example
+    std::mutex surveying_;
+    Found found_;
+    double source_fps_ = 0;  ///< of the example
     std::vector<DatasetHeader> datasets_;
 };
-
-/// The values of {action} in file names without extension, sorted, each once. Throws Error where no name fits
-/// the pattern.
-std::vector<std::string> actions_in(const std::vector<std::string>& stems, const NamePattern& pattern);
-
-/// The format for the files at `raw`: lists their names and takes the topology from the first sound one that
-/// fits the pattern. Throws Error as BvhFormat and actions_in do, and where no file is sound.
-std::unique_ptr<BvhFormat> open_bvh(const BvhOptions& options, const std::vector<std::filesystem::path>& raw);
 
 }  // namespace actformer::ingest

@@ -29,10 +29,6 @@ std::optional<NtuName> parse_ntu_name(std::string_view stem) {
     return NtuName{numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
 }
 
-std::string renumbered(const std::string& name, std::uint32_t label) {
-    return parse_ntu_name(name) ? fmt::format("{}{:03}", name.substr(0, 17), label + 1) : name;
-}
-
 std::unordered_set<std::string> read_missing_list(const std::filesystem::path& path) {
     std::vector<char> scratch;
     auto text = without_bom(read_text(path, scratch, std::uint64_t{64} << 20));

@@ -18,9 +18,6 @@ struct NtuName {
 /// Nothing where `stem` is not spelt like one or the action is not one of 1..120.
 std::optional<NtuName> parse_ntu_name(std::string_view stem);
 
-/// The name with its action replaced by label + 1, as the public tools renumber it; other names as they are.
-std::string renumbered(const std::string& name, std::uint32_t label);
-
 /// Names in a missing-skeleton list: one a line, with or without header lines and ".skeleton". Throws Error where the
 /// file cannot be read or holds no name.
 std::unordered_set<std::string> read_missing_list(const std::filesystem::path& path);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
+#include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "ingest/formats/ntu/actions.hpp"
 #include "ingest/formats/ntu/name.hpp"
@@ -14,6 +16,12 @@ namespace {
 struct NtuClip : RawClip {
     std::uint32_t frames = 0;
     std::vector<Body> bodies;  ///< those kept, as many as the dataset has persons
+
+    std::size_t bytes() const override {
+        std::size_t all = sizeof *this;
+        for (const auto& body : bodies) all += 4 * (body.times.size() + body.limbs.size());
+        return all;
+    }
 };
 
 /// Classes of one family in the order of their numbers, and each action's label among them.
@@ -67,12 +75,27 @@ std::vector<Split> ntu_splits() {
             {"xset/test", {{"setup", even, true}}}};
 }
 
-NtuFormat::NtuFormat(kernels::Smoothing smoothing)
-    : smoothing_(smoothing), datasets_{family("ntu-1p", 1), family("ntu-2p", 2)} {}
+NtuFormat::NtuFormat(std::unordered_set<std::string> missing, kernels::Smoothing smoothing)
+    : missing_(std::move(missing)),
+      smoothing_(smoothing),
+      datasets_{family("ntu-1p", 1), family("ntu-2p", 2)} {}
 
 std::string NtuFormat::settings() const {
-    return fmt::format("ntu: Gaussian smoothing sigma {} radius {} frames", smoothing_.sigma,
-                       smoothing_.radius);
+    auto text =
+        fmt::format("ntu: Gaussian smoothing sigma {} radius {} frames", smoothing_.sigma, smoothing_.radius);
+    if (missing_.empty()) return text;
+    Checksum names;
+    for (const auto& name : std::set<std::string>(missing_.begin(), missing_.end())) names.add(name + "\n");
+    return text + fmt::format(", {} clips named as missing ({})", missing_.size(), names.hex());
+}
+
+std::optional<Rejection> NtuFormat::refuse(const RawText& raw) const {
+    if (!missing_.contains(std::string(raw.stem))) return {};
+    return Rejection{Rejection::Kind::missing, "named in the missing list"};
+}
+
+void NtuFormat::read(const RawText& raw, ClipSink& sink) const {
+    sink.take(parse(raw));
 }
 
 ParsedClip NtuFormat::parse(const RawText& raw) const {

@@ -145,3 +145,10 @@ TEST(Subjects, RefuseAttributesThatContradictOneAnother) {
                   std::string::npos);
     }
 }
+
+TEST(PublicNames, AreRenumberedByTheLabel) {
+    EXPECT_EQ(public_name("S001C001P001R001A106", 11), "S001C001P001R001A012");
+    EXPECT_EQ(public_name("A003", 0), "A001");
+    for (const char* kept : {"walk_active_001", "A003_7", "A03", "A0003", "B003", "003", ""})
+        EXPECT_EQ(public_name(kept, 3), kept);
+}

@@ -14,7 +14,7 @@ namespace {
 
 /// stem -> text of every file of a source.
 std::vector<std::pair<std::string, std::string>> contents(const std::vector<fs::path>& raw) {
-    Source source(raw, ".skeleton");
+    Source source(raw, {".skeleton"});
     std::vector<std::pair<std::string, std::string>> out;
     std::vector<char> scratch;
     RawFile file;
@@ -81,7 +81,7 @@ TEST_F(Files, ComeInTheOrderOfThePaths) {
 
 TEST_F(Files, NamesAreListedWithoutTheirBytes) {
     run_command("cd " + dir.path().string() + " && tar czf x.tar.gz raw");
-    Source source({dir / "x.tar.gz"}, ".skeleton");
+    Source source({dir / "x.tar.gz"}, {".skeleton"});
     RawFile file;
     int n = 0;
     while (source.next_name(file)) ++n;
@@ -116,7 +116,7 @@ TEST_F(Files, InABrokenArchiveStopWithItsName) {
 
 TEST_F(Files, ThatCannotBeReadSayWhyWhenTheyAreWanted) {
     fs::create_symlink(dir / "gone", dir / "raw/dangling.skeleton");
-    Source source({dir / "raw"}, ".skeleton");
+    Source source({dir / "raw"}, {".skeleton"});
     std::vector<char> scratch;
     RawFile file;
     int unreadable = 0;
@@ -130,8 +130,8 @@ TEST_F(Files, ThatCannotBeReadSayWhyWhenTheyAreWanted) {
 }
 
 TEST_F(Files, ChangeTheListingWhenTheyChange) {
-    const auto before = Source({dir / "raw"}, ".skeleton").listing();
-    EXPECT_EQ(Source({dir / "raw"}, ".skeleton").listing(), before);
+    const auto before = Source({dir / "raw"}, {".skeleton"}).listing();
+    EXPECT_EQ(Source({dir / "raw"}, {".skeleton"}).listing(), before);
     write_file(dir / "raw/b/two.skeleton", "changed");
-    EXPECT_NE(Source({dir / "raw"}, ".skeleton").listing(), before);
+    EXPECT_NE(Source({dir / "raw"}, {".skeleton"}).listing(), before);
 }

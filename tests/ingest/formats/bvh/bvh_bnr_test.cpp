@@ -135,33 +135,41 @@ void expect_agreement(const PlainClip& clip, const Topology& topology, const ker
     for (std::size_t j = 0; j < joints; ++j) ASSERT_NEAR(got.bone_length[j], bones[j], 1e-5) << "joint " << j;
 }
 
+void survey(BvhFormat& format, const std::filesystem::path& archive) {
+    Source source({archive}, format.extensions());
+    std::vector<char> scratch;
+    for (RawFile file; source.next(file);) format.survey(file.raw(file.text(scratch)));
+    format.settle();
+}
+
 TEST(BvhBnr, RealClipsComeOutAsPlainDoublePrecisionHasThem) {
     const std::filesystem::path archive = test::shared("data/bnr/dataset-1.tar.xz");
     if (!std::filesystem::exists(archive)) GTEST_SKIP() << archive << " is not at hand";
     BvhOptions options;
     options.dataset = "bnr-1";
     options.pattern = "dataset-1_{action}_{style}_{index}";
-    const auto format = open_bvh(options, {archive});
-    const auto& header = format->datasets()[0];
+    BvhFormat format(options);
+    survey(format, archive);
+    const auto& header = format.datasets()[0];
     EXPECT_EQ(header.topology.names[0], "Hips");
     EXPECT_EQ(header.topology.joints(), 21U);
     EXPECT_EQ(header.fps, 30);
     EXPECT_EQ(header.classes.size(), 16U);
 
     kernels::Device device;
-    Source source({archive}, format->extension());
+    Source source({archive}, format.extensions());
     std::vector<char> scratch;
     std::size_t files = 0;
     for (RawFile file; source.next(file);) {
         if (files++ % 8 != 0) continue;
         SCOPED_TRACE(file.path);
         const auto text = file.text(scratch);
-        auto parsed = format->parse({file.path, file.stem, text});
+        auto parsed = format.parse(file.raw(text));
         if (auto* r = std::get_if<Rejection>(&parsed)) FAIL() << r->reason;
         std::vector<std::unique_ptr<RawClip>> clips;
         clips.push_back(std::get<std::unique_ptr<RawClip>>(std::move(parsed)));
         std::vector<std::uint32_t> frames;
-        expect_agreement(read_plainly(text), header.topology, format->clean(device, 0, clips, frames));
+        expect_agreement(read_plainly(text), header.topology, format.clean(device, 0, clips, frames));
         if (HasFatalFailure()) return;
     }
     EXPECT_EQ(files, 174U);

@@ -25,11 +25,6 @@ TEST(NtuName, RefusesAllElse) {
         EXPECT_FALSE(parse_ntu_name(name)) << name;
 }
 
-TEST(NtuName, RenumbersAsThePublicTools) {
-    EXPECT_EQ(renumbered("S001C001P001R001A106", 11), "S001C001P001R001A012");
-    EXPECT_EQ(renumbered("walk_active_001", 3), "walk_active_001");
-}
-
 TEST(MissingList, ComesWithOrWithoutHeaderLinesAndInAnyLineEnds) {
     const TempDir dir;
     actformer::test::write_file(

@@ -1,0 +1,28 @@
+#include "ingest/formats/formats.hpp"
+
+#include <array>
+
+#include "ingest/formats/bvh/bvh_command.hpp"
+#include "ingest/formats/ntu/ntu_command.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+template <typename Command>
+std::unique_ptr<IngestCommand> make() {
+    return std::make_unique<Command>();
+}
+
+constexpr std::array entries{
+    FormatEntry{"ntu", "NTU RGB+D .skeleton files -> DIR/ntu-1p and DIR/ntu-2p", ntu_examples, false,
+                make<NtuCommand>},
+    FormatEntry{"bvh", "BVH files of one skeleton -> the dataset DIR", bvh_examples, true, make<BvhCommand>},
+};
+
+}  // namespace
+
+std::span<const FormatEntry> formats() {
+    return entries;
+}
+
+}  // namespace actformer::ingest

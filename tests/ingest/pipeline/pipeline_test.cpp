@@ -1,0 +1,260 @@
+// The pipeline through a format made for it: files of many clips, a survey, classes that nobody has.
+#include "ingest/pipeline/pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <mutex>
+#include <set>
+#include <sstream>
+
+#include "base/checksum/checksum.hpp"
+#include "base/error.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer;
+using namespace actformer::ingest;
+using namespace actformer::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t mib = std::size_t{1} << 20;
+
+std::atomic<std::int64_t> alive{0}, most_alive{0};
+
+struct LineClip : RawClip {
+    LineClip() { most_alive = std::max(most_alive.load(), ++alive); }
+    ~LineClip() override { --alive; }
+    std::size_t bytes() const override { return mib; }  // so it says, that a file of many has to wait
+    float x = 0;
+};
+
+/// A line "NAME CLASS X" is a clip of two frames of two joints; "!WHY" is a bad one, "?NAME CLASS X" one in doubt; "stop" throws.
+class LineFormat : public Format {
+  public:
+    explicit LineFormat(Survey how = Survey::texts) : how_(how) {}
+    std::vector<std::string_view> extensions() const override { return {".lines", ".txt"}; }
+    Survey surveys() const override { return how_; }
+    void survey(const RawText& raw) override {
+        const std::lock_guard lock(mutex_);
+        seen.insert(std::string(raw.inside) + "=" + std::string(raw.text));
+    }
+    void settle() override {
+        DatasetHeader header;
+        header.name = "lines";
+        header.topology = {{"a", "b"}, {-1, 0}};
+        header.classes = {"c0", "c1", "c2", "c3"};
+        datasets_ = {header};
+    }
+    const std::vector<DatasetHeader>& datasets() const override { return datasets_; }
+    bool drops_empty_classes() const override { return drops; }
+    std::string settings() const override { return "lines"; }
+    std::vector<std::string> remarks() const override {
+        return {fmt::format("{} files surveyed", seen.size())};
+    }
+    std::optional<Rejection> refuse(const RawText& raw) const override {
+        if (raw.stem != "refused") return {};
+        return Rejection{Rejection::Kind::dropped, "not this one"};
+    }
+    void read(const RawText& raw, ClipSink& sink) const override {
+        std::istringstream lines{std::string(raw.text)};
+        int number = 0;
+        for (std::string line; std::getline(lines, line);) {
+            ++number;
+            if (line == "stop" && stops) throw std::runtime_error("stopped");
+            if (line.starts_with("!")) {
+                sink.take(
+                    Rejection{Rejection::Kind::broken, fmt::format("line {}: {}", number, line.substr(1))});
+                continue;
+            }
+            if (line == "stop") continue;
+            auto clip = std::make_unique<LineClip>();
+            if (line.starts_with("?")) clip->doubts = {"odd: --even mends it"};
+            std::istringstream words(line.substr(line.starts_with("?")));
+            words >> clip->name >> clip->label >> clip->x;
+            sink.take(std::move(clip));
+        }
+    }
+    kernels::CleanedBatch clean(kernels::Device& device, std::size_t,
+                                std::span<const std::unique_ptr<RawClip>> clips,
+                                std::vector<std::uint32_t>& frames) const override {
+        kernels::ClipBatch batch;
+        batch.joints = 2;
+        batch.first = {0};
+        auto limbs = kernels::limb_buffer(device, clips.size() * 2, 2);
+        limbs.write_with([&](std::span<float> to) {
+            for (std::size_t i = 0; i < clips.size(); ++i) {
+                const float x = static_cast<const LineClip&>(*clips[i]).x;
+                const float one[] = {0, 0, 0, x, 0, 0, 0, 0, 0, 0, x, 0};
+                std::copy(std::begin(one), std::end(one), to.begin() + 12 * i);
+            }
+        });
+        for (std::size_t i = 0; i < clips.size(); ++i) {
+            batch.frames.push_back(2);
+            batch.step.push_back(1);
+            batch.times.insert(batch.times.end(), {0, 1});
+            batch.first.push_back(batch.first.back() + 2);
+        }
+        frames = batch.frames;
+        return kernels::clean(device, batch, limbs, {0, 0});
+    }
+
+    std::set<std::string> seen;
+    bool drops = false;
+    bool stops = false;
+
+  private:
+    Survey how_;
+    std::mutex mutex_;
+    std::vector<DatasetHeader> datasets_;
+};
+
+struct Pipeline : testing::Test {
+    IngestSummary run(LineFormat& format, const char* out = "out", unsigned threads = 3) {
+        IngestRequest request;
+        request.raw = {dir / "raw"};
+        request.out = dir / out;
+        request.one_dataset = true;
+        request.threads = threads;
+        request.strict = strict;
+        return ingest::ingest(request, format, device);
+    }
+
+    /// `count` clips of class 0 and 2 in turn.
+    static std::string many(const std::string& prefix, int count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) text += fmt::format("{}{} {} {}\n", prefix, i, i % 2 * 2, i % 7 + 1);
+        return text;
+    }
+
+    /// Names and contents of all files below `folder`.
+    static std::map<std::string, std::string> contents(const fs::path& folder) {
+        std::map<std::string, std::string> out;
+        for (const auto& entry : fs::recursive_directory_iterator(folder))
+            if (entry.is_regular_file())
+                out[fs::relative(entry.path(), folder).string()] = checksum(read_file(entry.path()));
+        return out;
+    }
+
+    TempDir dir;
+    kernels::Device device;
+    bool strict = false;
+};
+
+}  // namespace
+
+TEST_F(Pipeline, TakesManyClipsOfAFileInOrder) {
+    write_file(dir / "raw/a.lines", "x 1 2\n!too short\n?y 2 3\n!too long\ny 0 1\n?z 3 4\n");
+    write_file(dir / "raw/b/c.txt", "w 0 5\n");
+    LineFormat format;
+    const auto summary = run(format);
+    const Dataset dataset(dir / "out");
+    std::vector<std::string> names;
+    std::vector<std::uint32_t> labels;
+    for (const auto& clip : dataset.clips()) {
+        names.push_back(clip.name);
+        labels.push_back(clip.label);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"x", "y", "z", "w"}));
+    EXPECT_EQ(labels, (std::vector<std::uint32_t>{1, 2, 3, 0}));
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(dataset.bone_length(i)[1], 2 + i, 1e-6);
+    EXPECT_EQ(read_file(dir / "out/rejected.csv"),
+              fmt::format("file,kind,reason\n{0},broken,line 2: too short\n{0},broken,line 4: too long\n"
+                          "{0},duplicate,clip y: a clip of this name came before\n",
+                          (dir / "raw/a.lines").string()));
+    EXPECT_EQ(summary.left_out, (std::map<std::string, std::uint64_t>{{"broken", 2}, {"duplicate", 1}}));
+    ASSERT_EQ(summary.doubts.size(), 1U);
+    EXPECT_EQ(summary.doubts[0].what, "odd: --even mends it");
+    EXPECT_EQ(summary.doubts[0].clips, 2U);
+    EXPECT_EQ(summary.doubts[0].first, (std::vector<std::string>{"y", "z"}));
+    EXPECT_EQ(summary.remarks, std::vector<std::string>{"2 files surveyed"});
+    const auto again = run(format);
+    EXPECT_TRUE(again.was_complete);
+    EXPECT_EQ(again.remarks, summary.remarks);
+    EXPECT_EQ(again.doubts[0].clips, 2U);
+}
+
+TEST_F(Pipeline, HoldsFewClipsOfALargeFileAtOnce) {
+    write_file(dir / "raw/large.lines", many("l", 2000));
+    write_file(dir / "raw/small.lines", many("s", 3));
+    write_file(dir / "raw/zlarge.lines", many("z", 500));
+    most_alive = 0;
+    LineFormat format;
+    run(format);
+    // 64 MiB wait to be cleaned; 6 portions of 16 MiB and one in hand behind them; a file and its successors fill up in the meantime.
+    EXPECT_LT(most_alive, 64 + 8 * 17 + 3 * 17 + 17);
+    EXPECT_EQ(alive, 0);
+    LineFormat alone;
+    run(alone, "alone", 1);
+    EXPECT_EQ(contents(dir / "out"), contents(dir / "alone"));
+    const Dataset dataset(dir / "out");
+    ASSERT_EQ(dataset.clips().size(), 2503U);
+    EXPECT_EQ(dataset.clips()[1999].name, "l1999");
+    EXPECT_EQ(dataset.clips()[2000].name, "s0");
+    EXPECT_TRUE(verify_dataset(dir / "out").empty());
+}
+
+TEST_F(Pipeline, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
+    // More than one tranche: the first is kept.
+    for (int i = 0; i < 5000; ++i)
+        write_file(dir / fmt::format("raw/{:04}.lines", i), fmt::format("n{} 1 2\n", i));
+    write_file(dir / "raw/z.lines", many("z", 300) + "stop\n" + many("y", 20));
+    LineFormat whole, stopped;
+    run(whole, "whole");
+    stopped.stops = true;
+    EXPECT_THROW(run(stopped), Error);
+    EXPECT_EQ(alive, 0);
+    LineFormat resumed;
+    EXPECT_EQ(run(resumed).resumed_files, 4096U);
+    EXPECT_EQ(contents(dir / "out"), contents(dir / "whole"));
+}
+
+TEST_F(Pipeline, SurveysEveryFileBeforeTheFirstIsRead) {
+    write_file(dir / "raw/a.lines", "x 1 2\n");
+    write_file(dir / "raw/b/refused.lines", "y 1 2\n");
+    write_file(dir / "raw/b/c.txt", "w 0 5\n");
+    fs::create_symlink(dir / "gone", dir / "raw/dangling.lines");
+    LineFormat texts, names(Format::Survey::names), nothing(Format::Survey::nothing);
+    EXPECT_EQ(run(texts).left_out, (std::map<std::string, std::uint64_t>{{"broken", 1}, {"dropped", 1}}));
+    EXPECT_EQ(texts.seen, (std::set<std::string>{"a.lines=x 1 2\n", "b/c.txt=w 0 5\n"}));
+    run(names, "names");
+    EXPECT_EQ(names.seen, (std::set<std::string>{"a.lines=", "b/c.txt=", "dangling.lines="}));
+    run(nothing, "nothing");
+    EXPECT_TRUE(nothing.seen.empty());
+}
+
+TEST_F(Pipeline, StopsAtABrokenClipWhenStrict) {
+    write_file(dir / "raw/a.lines", "x 1 2\n!too short\n");
+    strict = true;
+    LineFormat format;
+    try {
+        run(format);
+        FAIL() << "went through";
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("a.lines: line 2: too short (--strict"), std::string::npos)
+            << e.what();
+    }
+    EXPECT_FALSE(fs::exists(dir / "out"));
+}
+
+TEST_F(Pipeline, DropsClassesThatNoClipHas) {
+    write_file(dir / "raw/a.lines", "x 1 2\ny 3 2\nz 3 1\n");
+    LineFormat kept, dropping;
+    run(kept, "kept");
+    EXPECT_EQ(Dataset(dir / "kept").header().classes.size(), 4U);
+    dropping.drops = true;
+    const auto summary = run(dropping);
+    const Dataset dataset(dir / "out");
+    EXPECT_EQ(dataset.header().classes, (std::vector<std::string>{"c1", "c3"}));
+    EXPECT_EQ(dataset.clips()[0].label, 0U);
+    EXPECT_EQ(dataset.clips()[1].label, 1U);
+    EXPECT_EQ(dataset.clips()[2].label, 1U);
+    EXPECT_TRUE(verify_dataset(dir / "out").empty());
+    ASSERT_EQ(summary.datasets.size(), 1U);
+    EXPECT_EQ(summary.datasets[0].classes, 2U);
+    ASSERT_EQ(summary.remarks.size(), 2U);
+    EXPECT_EQ(summary.remarks[1], "no clip was left of c0, c2: they are not among the classes");
+    EXPECT_EQ(Dataset(dir / "kept").motion(2).values, dataset.motion(2).values);
+}
