@@ -13,6 +13,7 @@
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
 #include "cli/bench.hpp"
+#include "eval/metrics/fid.hpp"
 #include "eval/scoring/features_file.hpp"
 
 namespace actformer::cli {

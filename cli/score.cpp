@@ -170,24 +170,20 @@ eval::ScoreRequest prepared(const Options& options, const fs::path& work) {
 }
 
 std::string value_text(const eval::Metric& metric, double value) {
-    return std::string_view(metric.name) == "accuracy" ? fmt::format("{:.2f}", 100 * value)
-                                                       : fmt::format("{:.4g}", value);
+    return metric.unit == "%" ? fmt::format("{:.2f}", metric.scale * value)
+                              : fmt::format("{:.4g}", metric.scale * value);
 }
 
 void print_metrics(const eval::ScoreReport& report) {
     fmt::print("{:<16}{:>22}{:>22}\n", "", "generated", "real against real");
-    for (const auto& metric : eval::metrics) {
+    for (const auto& metric : eval::metrics()) {
         const auto got = summary(report, metric);
         if (!got) continue;
         auto text = value_text(metric, got->mean);
         if (got->half_width) text += " ± " + value_text(metric, *got->half_width);
-        const auto floor = report.floor ? metric.of(report.floor->score) : std::nullopt;
-        const bool share = std::string_view(metric.name) == "accuracy";
-        fmt::print("{:<16}{:>22}{:>22}   {}\n", fmt::format("{}{}", metric.heading, share ? " %" : ""), text,
-                   floor ? value_text(metric, *floor) : "-",
-                   metric.smaller_is_better ? "smaller is better"
-                   : share                  ? "larger is better"
-                                            : "as the real one's");
+        const auto floor = report.floor ? value_of(report.floor->score, metric) : std::nullopt;
+        fmt::print("{:<16}{:>22}{:>22}   {}\n", fmt::format("{} {}", metric.heading, metric.unit), text,
+                   floor ? value_text(metric, *floor) : "-", describe(metric.direction));
     }
 }
 

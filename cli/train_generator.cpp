@@ -26,8 +26,8 @@ void print_epoch(const model::GeneratorEpoch& report, std::int64_t epochs) {
 }
 
 std::string text_of(const model::GeneratorScores& scores) {
-    return fmt::format("recognised {:.1f} %  FIDw {:.2f}  FIDm {:.2f}", 100 * scores.accuracy,
-                       scores.fid_whole, scores.fid_mean);
+    return fmt::format("recognised {:.1f} %  FIDw {:.2f}  FIDm {}", 100 * scores.accuracy, scores.fid_whole,
+                       scores.fid_mean ? fmt::format("{:.2f}", *scores.fid_mean) : "-");
 }
 
 nlohmann::ordered_json to_json(const model::GeneratorScores& scores) {
@@ -35,7 +35,7 @@ nlohmann::ordered_json to_json(const model::GeneratorScores& scores) {
             {"step", scores.step},
             {"accuracy", scores.accuracy},
             {"fid_whole", scores.fid_whole},
-            {"fid_mean", scores.fid_mean}};
+            {"fid_mean", scores.fid_mean ? nlohmann::ordered_json(*scores.fid_mean) : nullptr}};
 }
 
 void print_json(const model::GeneratorResult& result) {

@@ -97,4 +97,15 @@ std::vector<std::vector<std::uint64_t>> Confusion::rows() const {
     return rows;
 }
 
+Confusion confusion_of(const Samples& samples) {
+    Confusion confusion(samples.classes);
+    const auto classes = static_cast<std::ptrdiff_t>(samples.classes);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const auto first = samples.logits.begin() + static_cast<std::ptrdiff_t>(i) * classes;
+        confusion.add(samples.labels[i],
+                      static_cast<std::size_t>(std::max_element(first, first + classes) - first));
+    }
+    return confusion;
+}
+
 }  // namespace actformer::eval

@@ -1,9 +1,11 @@
-// Which class was taken for which.
+// Accuracy, and which class was taken for which.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "eval/metrics/samples.hpp"
 
 namespace actformer::eval {
 
@@ -42,5 +44,9 @@ class Confusion {
     std::size_t classes_;
     std::vector<std::uint64_t> counts_;
 };
+
+/// Label against largest logit (of equal ones the first). Its mean_class_accuracy() is the accuracy of the tables: the mean
+/// over the classes that have samples of the share recognised.
+Confusion confusion_of(const Samples& samples);
 
 }  // namespace actformer::eval

@@ -8,7 +8,7 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
-#include "eval/metrics/scores.hpp"
+#include "eval/metrics/fid.hpp"
 #include "eval/scoring/features_file.hpp"
 #include "eval/stgcn/recogniser.hpp"
 #include "eval/stgcn/tuning.hpp"

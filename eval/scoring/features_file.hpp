@@ -8,7 +8,7 @@
 
 #include "base/files/aside.hpp"
 #include "base/hdf5/writer.hpp"
-#include "eval/metrics/scores.hpp"
+#include "eval/metrics/samples.hpp"
 
 namespace actformer::eval {
 

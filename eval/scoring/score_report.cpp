@@ -4,6 +4,10 @@
 
 #include <algorithm>
 
+#include "base/error.hpp"
+#include "eval/metrics/diversity.hpp"
+#include "eval/metrics/multimodality.hpp"
+
 namespace actformer::eval {
 namespace {
 
@@ -122,8 +126,8 @@ Json class_json(const ScoreReport& report, std::size_t c) {
 
 Json floor_json(const Floor& floor) {
     Json out;
-    for (const auto& metric : metrics)
-        if (const auto value = metric.of(floor.score)) out[metric.name] = *value;
+    for (const auto& metric : metrics())
+        if (const auto value = value_of(floor.score, metric)) out[std::string(metric.name)] = *value;
     std::size_t drawn = 0, rest = 0;
     for (const auto n : floor.score.counts) drawn += n;
     for (const auto n : floor.rest) rest += n;
@@ -147,23 +151,21 @@ Json confusion_json(const ScoreReport& report) {
 
 }  // namespace
 
-const std::vector<Metric> metrics{
-    {"accuracy", "accuracy", false,
-     [](const Score& s) {
-         return s.confusion ? std::optional(s.confusion->mean_class_accuracy()) : std::nullopt;
-     }},
-    {"fid_mean", "FIDm", true, [](const Score& s) { return s.fid.mean; }},
-    {"fid_whole", "FIDw", true, [](const Score& s) { return std::optional(s.fid.whole); }},
-    {"fida_mean", "FIDa_m", true,
-     [](const Score& s) { return s.fid_groups ? s.fid_groups->mean : std::nullopt; }},
-    {"fida_whole", "FIDa_w", true,
-     [](const Score& s) { return s.fid_groups ? std::optional(s.fid_groups->whole) : std::nullopt; }},
-    {"diversity", "diversity", false, [](const Score& s) { return s.diversity; }},
-    {"multimodality", "multimodality", false, [](const Score& s) { return s.multimodality; }}};
-
-const Metric* find_metric(std::string_view name) {
-    const auto found = std::ranges::find(metrics, name, &Metric::name);
-    return found == metrics.end() ? nullptr : &*found;
+std::optional<double> value_of(const Score& score, const Metric& metric) {
+    const auto of_groups = [&](auto value) -> std::optional<double> {
+        if (!score.fid_groups) return {};
+        return value(*score.fid_groups);
+    };
+    if (metric.name == "accuracy")
+        return score.confusion ? std::optional(score.confusion->mean_class_accuracy()) : std::nullopt;
+    if (metric.name == "fid_mean") return score.fid.mean;
+    if (metric.name == "fid_whole") return score.fid.whole;
+    if (metric.name == "fida_mean") return of_groups([](const Distances& d) { return d.mean; });
+    if (metric.name == "fida_whole")
+        return of_groups([](const Distances& d) { return std::optional(d.whole); });
+    if (metric.name == "diversity") return score.diversity;
+    if (metric.name == "multimodality") return score.multimodality;
+    throw Error("metric '{}' has no value", metric.name);
 }
 
 ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes, std::size_t repeats,
@@ -191,19 +193,20 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
 std::optional<Interval> summary(const ScoreReport& report, const Metric& metric) {
     std::vector<double> values;
     for (const auto& score : report.repeats)
-        if (const auto value = metric.of(score)) values.push_back(*value);
+        if (const auto value = value_of(score, metric)) values.push_back(*value);
     if (values.empty()) return {};
     return interval(values);
 }
 
 nlohmann::ordered_json to_json(const ScoreReport& report) {
     Json out;
-    for (const auto& metric : metrics) {
+    for (const auto& metric : metrics()) {
         const auto got = summary(report, metric);
         if (!got) continue;
         Json each = Json::array();
-        for (const auto& score : report.repeats) each.push_back(number(metric.of(score)));
-        out[metric.name] = {{"mean", got->mean}, {"ci95", number(got->half_width)}, {"repeats", each}};
+        for (const auto& score : report.repeats) each.push_back(number(value_of(score, metric)));
+        out[std::string(metric.name)] = {
+            {"mean", got->mean}, {"ci95", number(got->half_width)}, {"repeats", each}};
     }
     if (report.floor) out["floor"] = floor_json(*report.floor);
     std::size_t samples = 0;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/metrics/interval.hpp"
+#include "eval/metrics/metric.hpp"
 #include "eval/scoring/scorer.hpp"
 
 namespace actformer::eval {
@@ -27,16 +28,8 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
 /// A class with fewer samples than this on a side is warned of.
 constexpr std::size_t thin_class = 50;
 
-/// A metric's name in the JSON, and its value in one repeat; none where it is not measured.
-struct Metric {
-    const char *name, *heading;
-    bool smaller_is_better;
-    std::optional<double> (*of)(const Score&);
-};
-extern const std::vector<Metric> metrics;
-
-/// Null where there is none of that name.
-const Metric* find_metric(std::string_view name);
+/// A metric in one repeat; none where it is not measured.
+std::optional<double> value_of(const Score& score, const Metric& metric);
 
 /// Of the repeats that have it; none where none has.
 std::optional<Interval> summary(const ScoreReport& report, const Metric& metric);

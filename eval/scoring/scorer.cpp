@@ -5,6 +5,8 @@
 #include <random>
 
 #include "base/error.hpp"
+#include "eval/metrics/diversity.hpp"
+#include "eval/metrics/multimodality.hpp"
 
 namespace actformer::eval {
 namespace {

@@ -1,7 +1,8 @@
 // All scores of generated samples against one real side, whose statistics are made once.
 #pragma once
 
-#include "eval/metrics/scores.hpp"
+#include "eval/metrics/confusion.hpp"
+#include "eval/metrics/fid.hpp"
 
 namespace actformer::eval {
 

@@ -1,7 +1,8 @@
 #include "model/train/judge.hpp"
 
 #include "base/checksum/checksum.hpp"
-#include "eval/metrics/scores.hpp"
+#include "eval/metrics/confusion.hpp"
+#include "eval/metrics/fid.hpp"
 #include "eval/scoring/features.hpp"
 #include "eval/stgcn/recogniser.hpp"
 #include "eval/stgcn/tuning.hpp"
@@ -82,7 +83,7 @@ JudgeScores Judge::score(const Labelled& motions) {
                     std::span(motions.labels).subspan(first, count), samples);
     }
     const auto apart = eval::distances(parts_->real, eval::statistics_of(samples));
-    return {eval::confusion_of(samples).mean_class_accuracy(), apart.whole, apart.mean.value_or(0)};
+    return {eval::confusion_of(samples).mean_class_accuracy(), apart.whole, apart.mean};
 }
 
 }  // namespace actformer::model

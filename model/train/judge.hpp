@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,9 @@ struct Labelled {
 };
 
 struct JudgeScores {
-    double accuracy = 0;   ///< 0..1, the mean over classes of the hit rate
-    double fid_whole = 0;  ///< FIDw
-    double fid_mean = 0;   ///< FIDm; 0 where no class has two motions on both sides
+    double accuracy = 0;             ///< 0..1, the mean over classes of the hit rate
+    double fid_whole = 0;            ///< FIDw
+    std::optional<double> fid_mean;  ///< FIDm; none where no class has two motions on both sides
 };
 
 class Judge {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "eval/metrics/scores.hpp"
+#include "eval/metrics/samples.hpp"
 
 namespace actformer::reports {
 

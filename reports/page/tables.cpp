@@ -125,12 +125,12 @@ const char* in_words(CellState state) {
 std::string heading_of(const std::string& metric) {
     if (metric == "accuracy") return "Acc. %";
     const auto* found = eval::find_metric(metric);
-    return found ? found->heading : metric;
+    return found ? std::string(found->heading) : metric;
 }
 
 bool smaller_is_better(const std::string& metric) {
     const auto* found = eval::find_metric(metric);
-    return found && found->smaller_is_better;
+    return found && found->direction == eval::Direction::lower;
 }
 
 std::string figure_text(double value) {

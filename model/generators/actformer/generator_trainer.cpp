@@ -27,6 +27,15 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+Json json_of(const std::optional<double>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+std::optional<double> optional_of(const Json& value) {
+    if (value.is_null()) return {};
+    return value.get<double>();
+}
+
 class Training {
   public:
     Training(const Config& config, const std::filesystem::path& run, bool data_parallel,
@@ -189,8 +198,12 @@ void Training::resume() {
         epoch_seconds_ = state.at("seconds");
         if (state.contains("best") && trials_ && state.at("recogniser") == trials_->judge().checksum()) {
             const auto& b = state.at("best");
-            best_ = {b.at("epoch"),     b.at("step"),     b.at("accuracy"),
-                     b.at("fid_whole"), b.at("fid_mean"), true};
+            best_ = {b.at("epoch"),
+                     b.at("step"),
+                     b.at("accuracy"),
+                     b.at("fid_whole"),
+                     optional_of(b.at("fid_mean")),
+                     true};
         }
         say(fmt::format("going on after step {}, in epoch {} of {}", step_, epoch() + 1, settings_.epochs));
     }
@@ -295,7 +308,7 @@ void Training::end_trial() {
          {"accuracy", scores.accuracy},
          {"real_accuracy", trials_->judge().real_accuracy()},
          {"fid_whole", scores.fid_whole},
-         {"fid_mean", scores.fid_mean}});
+         {"fid_mean", json_of(scores.fid_mean)}});
     last_ = scores;
     if (scores.best) best_ = scores;
     if (events_.scores) events_.scores(scores);
@@ -326,7 +339,7 @@ Json Training::state_now() {
                          {"step", best_->step},
                          {"accuracy", best_->accuracy},
                          {"fid_whole", best_->fid_whole},
-                         {"fid_mean", best_->fid_mean}};
+                         {"fid_mean", json_of(best_->fid_mean)}};
     return state;
 }
 

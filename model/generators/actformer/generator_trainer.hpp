@@ -24,7 +24,8 @@ struct GeneratorEpoch {
 /// Scores of generated motions (DESIGN 4.9), and whether they are the best so far, by fid_whole.
 struct GeneratorScores {
     std::uint64_t epoch = 0, step = 0;
-    double accuracy = 0, fid_whole = 0, fid_mean = 0;  ///< accuracy 0..1
+    double accuracy = 0, fid_whole = 0;  ///< accuracy 0..1
+    std::optional<double> fid_mean;      ///< none where no class has one
     bool best = false;
 };
 

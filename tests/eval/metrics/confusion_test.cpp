@@ -68,3 +68,11 @@ TEST(Confusion, ListsManyClassesWithTheirCommonestMistakes) {
     EXPECT_EQ(lines[21], " 20 class-20      10      40  20 class-40, 20 class-50, 10 class-3");
     for (const auto& line : lines) EXPECT_LE(line.size(), 80U);
 }
+
+TEST(Confusion, TakesTheLargestLogit) {
+    actformer::eval::Samples s{1, 3, {0, 0, 0, 0}, {}, {0, 0, 0, 2}};
+    s.logits = {1, 0, 0, /**/ 0, 1, 0, /**/ 2, 2, 2, /**/ 0, 0, 9};  // of equal logits the first counts
+    const auto confusion = confusion_of(s);
+    EXPECT_NEAR(confusion.mean_class_accuracy(), (2.0 / 3 + 1) / 2, 1e-15);
+    EXPECT_EQ(confusion.at(0, 1), 1U);
+}

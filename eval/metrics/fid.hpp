@@ -1,34 +1,14 @@
-// What a set of generated samples is worth beside a set of real ones (DESIGN 4.9), from the recogniser's features and logits.
+// The Frechet distances of the tables: FIDw over all samples, FIDm as the mean over classes, FIDa over groups.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <string>
+#include <span>
 #include <vector>
 
-#include "eval/metrics/confusion.hpp"
 #include "eval/metrics/frechet.hpp"
+#include "eval/metrics/samples.hpp"
 
 namespace actformer::eval {
-
-/// n samples as the recogniser sees them.
-struct Samples {
-    std::size_t dimensions = 0, classes = 0;
-    std::vector<double> features;       ///< (n, dimensions)
-    std::vector<float> logits;          ///< (n, classes), or empty where no accuracy is asked for
-    std::vector<std::uint32_t> labels;  ///< (n) each below `classes`
-
-    std::size_t size() const { return labels.size(); }
-};
-
-/// Throws Error, beginning with `where`, for shapes that do not fit together, no samples, labels that are no class, or
-/// features and logits that are not finite.
-void check(const Samples& samples, const std::string& where);
-
-/// Label against largest logit (of equal ones the first). Its mean_class_accuracy() is the accuracy of the tables: the mean
-/// over the classes that have samples of the share recognised.
-Confusion confusion_of(const Samples& samples);
 
 /// The Gaussians of all samples and of each class. Made once for the real side and used for every generated one.
 struct Statistics {
@@ -68,13 +48,5 @@ Distances distances(const Statistics& real, const Statistics& generated, unsigne
 /// FIDa_w and FIDa_m are the distances of such samples, the features being a one-person recogniser's.
 std::vector<float> largest_of_group(std::span<const float> features, std::size_t dimensions,
                                     std::size_t persons);
-
-/// Mean Euclidean distance of `pairs` random pairs of samples, a sample never paired with itself. The same seed draws the same
-/// pairs. None for fewer than two samples.
-std::optional<double> diversity(const Samples& samples, std::size_t pairs = 200, std::uint64_t seed = 0);
-
-/// Mean over the classes that have two samples or more of the mean distance of `pairs` random pairs within the class. None
-/// where no class has them.
-std::optional<double> multimodality(const Samples& samples, std::size_t pairs = 20, std::uint64_t seed = 0);
 
 }  // namespace actformer::eval

@@ -1,0 +1,36 @@
+#include "eval/metrics/metric.hpp"
+
+#include <algorithm>
+
+namespace actformer::eval {
+
+const std::vector<Metric>& metrics() {
+    static const std::vector<Metric> list{
+        {"accuracy", "accuracy", "%", 100, Direction::higher},
+        {"fid_mean", "FIDm", "", 1, Direction::lower},
+        {"fid_whole", "FIDw", "", 1, Direction::lower},
+        {"fida_mean", "FIDa_m", "", 1, Direction::lower},
+        {"fida_whole", "FIDa_w", "", 1, Direction::lower},
+        {"diversity", "diversity", "", 1, Direction::nearest_real},
+        {"multimodality", "multimodality", "", 1, Direction::nearest_real},
+    };
+    return list;
+}
+
+const Metric* find_metric(std::string_view name) {
+    const auto found = std::ranges::find(metrics(), name, &Metric::name);
+    return found == metrics().end() ? nullptr : &*found;
+}
+
+std::string_view describe(Direction direction) {
+    switch (direction) {
+        case Direction::lower:
+            return "lower is better";
+        case Direction::higher:
+            return "higher is better";
+        default:
+            return "nearest to real is better";
+    }
+}
+
+}  // namespace actformer::eval
