@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -35,9 +36,9 @@ int become(const Subprogram& sub, char** argv) {
     wait_without_spinning();
     ::execv(path_of(sub).c_str(), argv);
     std::fprintf(stderr,
-                 "actformer: this build has no '%s': %s is not beside it (train, generate and model need "
-                 "libtorch; see "
-                 "README)\n",
+                 "actformer: this build has no '%s': %s is not beside it (train, generate, model and score "
+                 "--generator need "
+                 "libtorch; see README)\n",
                  sub.command, sub.program);
     return 1;
 }
@@ -45,6 +46,16 @@ int become(const Subprogram& sub, char** argv) {
 /// `bench train` lives with what it measures; the other benchmarks are here.
 constexpr Subprogram bench_train{"bench train", "actformer-train",
                                  "ActFormer's training and generation, beside eager PyTorch"};
+
+/// `score --generator` lives with the generators, whose motions never leave memory.
+constexpr Subprogram score_generator{"score --generator", "actformer-train", ""};
+
+bool asks_to_score_a_generator(int argc, char** argv) {
+    if (argc < 3 || std::string_view(argv[1]) != "score") return false;
+    return std::any_of(argv + 2, argv + argc, [](std::string_view word) {
+        return word == "--generator" || word.starts_with("--generator=");
+    });
+}
 
 bool asks_for_bench_train(int argc, char** argv) {
     return argc > 2 && std::string_view(argv[1]) == "bench" && std::string_view(argv[2]) == "train";
@@ -54,6 +65,7 @@ bool asks_for_bench_train(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     if (asks_for_bench_train(argc, argv)) return become(bench_train, argv);
+    if (asks_to_score_a_generator(argc, argv)) return become(score_generator, argv);
     for (const auto& sub : subprograms)
         if (argc > 1 && std::string_view(argv[1]) == sub.command) return become(sub, argv);
 

@@ -1,23 +1,20 @@
 // actformer score: what generated motions are worth beside real ones.
-#include "eval/scoring/score.hpp"
+#include "cli/score.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <memory>
 #include <optional>
 #include <set>
 
-#include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/scratch.hpp"
-#include "base/process/process.hpp"
-#include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "eval/scoring/labels_file.hpp"
-#include "eval/stgcn/weights.hpp"
+#include "eval/scoring/motions_file_source.hpp"
+#include "eval/scoring/score.hpp"
 #include "ingest/dataset/dataset.hpp"
 
 namespace actformer::cli {
@@ -26,16 +23,18 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-    eval::ScoreRequest request;
+    eval::ScoreMotions motions;
+    eval::ScoreFeatures features;
+    eval::GeneratedRequest generate;
     std::vector<fs::path> generated;
-    fs::path generator, labels, out;
-    std::string program, device, generate_on;
-    std::size_t repeats = 1, per_class = 100;
+    fs::path labels, out;
+    std::string device;
+    std::uint32_t frames = 0;
     std::uint64_t seed = 0;
     bool json = false;
 };
 
-/// Where features and motions are put while they are needed: beside the output, so that scoring goes on where it was, else
+/// Where features are put while they are needed: beside the output, so that scoring goes on where it was, else
 /// in a temporary folder. Gone when scoring has ended well, the temporary one in any case.
 class WorkFolder {
   public:
@@ -67,105 +66,57 @@ class WorkFolder {
     fs::path path_;
 };
 
-/// Of a generator's weights, or of all files of its folder that decide what it generates.
-std::string fingerprint_of(const fs::path& run) {
-    if (!fs::is_directory(run))
-        throw Error("{}: no such folder; --generator names the folder of a generator's training",
-                    run.string());
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::directory_iterator(run)) {
-        const auto extension = entry.path().extension();
-        if (entry.is_regular_file() && (extension == ".h5" || extension == ".pt" || extension == ".yaml"))
-            files[entry.path().filename().string()] = checksum_file(entry.path());
-    }
-    Checksum all;
-    for (const auto& [name, sum] : files) all.add(name + "|" + sum + "|");
-    return all.hex();
-}
-
-/// Numbers from 1 of the classes that the real side has, where these are not all: no others can be scored.
-std::string classes_to_generate(const eval::ScoreRequest& request) {
-    const ingest::Dataset dataset(request.real);
+/// Labels that the real side has, where these are not all: no others can be scored.
+std::vector<std::uint32_t> labels_to_generate(const eval::WindowsOptions& real) {
+    const ingest::Dataset dataset(real.dataset);
     std::set<std::uint32_t> labels;
-    for (const auto clip : dataset.split(request.split)) labels.insert(dataset.clips()[clip].label);
+    for (const auto clip : dataset.split(real.split)) labels.insert(dataset.clips()[clip].label);
     if (labels.size() == dataset.header().classes.size()) return {};
-    std::string out;
-    for (const auto label : labels) out += fmt::format("{}{}", out.empty() ? "" : ",", label + 1);
-    return out;
+    return {labels.begin(), labels.end()};
 }
 
-eval::MotionSet generated_set(const Options& options, const std::string& fingerprint,
-                              const std::string& classes, std::uint64_t seed, const fs::path& work) {
-    eval::MotionSet set;
-    set.name = fmt::format("{}, seed {}", options.generator.string(), seed);
-    set.key = fmt::format("{}|{}|{}|{}", fingerprint, seed, options.per_class, classes);
-    set.seed = seed;
-    set.temporary = true;
-    set.file = [&options, classes, seed, work] {
-        const auto motions = work / fmt::format("seed-{}.h5", seed);
-        std::vector<std::string> command{options.program,
-                                         "generate",
-                                         "--generator",
-                                         options.generator.string(),
-                                         "-o",
-                                         motions.string(),
-                                         "--seed",
-                                         std::to_string(seed),
-                                         "--per-class",
-                                         std::to_string(options.per_class)};
-        if (!classes.empty()) command.insert(command.end(), {"--classes", classes});
-        if (!options.generate_on.empty()) command.insert(command.end(), {"--device", options.generate_on});
-        const auto result = run_process(command, work / "generate.log");
-        if (result.exit != 0)
-            throw Error(
-                "{}: failed: {}", command_line(command),
-                result.last_line.empty() ? fmt::format("exit code {}", result.exit) : result.last_line);
-        return motions;
-    };
-    return set;
-}
-
-void check_choice(const Options& options) {
-    const auto& r = options.request;
-    const bool from_features = !r.real_features.empty() || !r.generated_features.empty();
-    const bool from_motions = !r.recogniser.empty() || !r.real.empty() || !options.generated.empty() ||
-                              !options.generator.empty() || !r.single_recogniser.empty();
-    if (from_features && from_motions)
+/// True where features files are scored, false where motions are.
+bool from_features(const Options& options) {
+    const auto& m = options.motions;
+    const auto& f = options.features;
+    const bool features = !f.real.empty() || !f.generated.empty();
+    const bool motions = !m.recogniser.empty() || !m.real.dataset.empty() || !options.generated.empty() ||
+                         !options.generate.generator.empty() || !m.single_recogniser.empty();
+    if (features && motions)
         throw Error(
             "score takes either --real-features and --generated-features, or motions with a recogniser");
-    if (from_features && (r.real_features.empty() || r.generated_features.empty()))
+    if (features && (f.real.empty() || f.generated.empty()))
         throw Error("score takes --real-features and --generated-features together");
-    if (from_features) return;
-    if (r.recogniser.empty() || r.real.empty())
+    if (features) return true;
+    if (m.recogniser.empty() || m.real.dataset.empty())
         throw Error(
             "score takes --recogniser, --real and --generated, or two features files (see actformer score "
             "--help)");
-    if (options.generated.empty() == options.generator.empty())
+    if (options.generated.empty() == options.generate.generator.empty())
         throw Error(
             "score takes either --generated, motions that are there, or --generator, whose motions it makes");
+    return false;
 }
 
-eval::ScoreRequest prepared(const Options& options, const fs::path& work) {
-    auto request = options.request;
+/// What the options ask for, with the sets of motions.
+eval::ScoreMotions prepared(const Options& options, const eval::GenerateSets& generate,
+                            const fs::path& work) {
+    auto request = options.motions;
     request.work = work;
     request.options.seed = options.seed;
-    if (!request.real_features.empty()) return request;
-    request.recogniser = eval::weights_of(request.recogniser);
-    if (!request.single_recogniser.empty())
-        request.single_recogniser = eval::weights_of(request.single_recogniser);
-    const auto folders = ingest::datasets_at(request.real);
-    if (folders.size() != 1)
-        throw Error("{}: holds {} datasets; take one at a time, as in {}", request.real.string(),
-                    folders.size(), folders[0].string());
-    request.real = folders[0];
+    request.real.dataset = ingest::one_dataset_at(request.real.dataset);
+    eval::MotionsFileOptions files{options.frames, request.real.batch, {}};
     if (!options.labels.empty())
-        request.labels =
-            eval::read_labels_file(options.labels, ingest::Dataset(request.real).header().classes);
-    for (const auto& path : options.generated) request.generated.push_back(eval::motions_in(path));
-    if (options.generator.empty()) return request;
-    const auto fingerprint = fingerprint_of(options.generator), classes = classes_to_generate(request);
-    for (std::size_t i = 0; i < options.repeats; ++i)
-        request.generated.push_back(generated_set(options, fingerprint, classes, options.seed + i, work));
+        files.labels =
+            eval::read_labels_file(options.labels, ingest::Dataset(request.real.dataset).header().classes);
+    for (const auto& path : options.generated) request.generated.push_back(eval::motions_in(path, files));
+    if (options.generate.generator.empty()) return request;
+    if (!generate) throw Error("score --generator: this program has no libtorch; see README");
+    auto wanted = options.generate;
+    wanted.labels = labels_to_generate(request.real);
+    wanted.seed = options.seed;
+    wanted.frames = options.frames;
+    request.generated = generate(wanted);
     return request;
 }
 
@@ -212,25 +163,26 @@ void print_text(const eval::Scored& scored) {
     for (const auto& warning : report.warnings) fmt::print("warning: {}\n", warning);
 }
 
-void run(Options options) {
-    check_choice(options);
-    if (options.program.empty()) options.program = (program_folder() / "actformer").string();
-    WorkFolder work(options.out);
-    const auto request = prepared(options, work.path());
-    std::unique_ptr<kernels::Device> device;
+eval::Scored scored_by(const Options& options, const eval::GenerateSets& generate, const fs::path& work) {
+    if (from_features(options)) {
+        auto request = options.features;
+        request.options.seed = options.seed;
+        return eval::score_features(request);
+    }
+    const auto request = prepared(options, generate, work);
+    kernels::Device device(options.device);
     Progress progress("score", "sequences", options.json);
-    eval::ScoreEvents events;
-    events.progress = [&](const std::string&, std::uint64_t done, std::uint64_t all) {
-        progress.update(static_cast<double>(done) / static_cast<double>(all), done);
-    };
-    const auto scored = eval::score(
-        request,
-        [&]() -> kernels::Device& {
-            if (!device) device = std::make_unique<kernels::Device>(options.device);
-            return *device;
-        },
-        events);
+    auto scored =
+        eval::score_motions(request, device, [&](const std::string&, std::uint64_t done, std::uint64_t all) {
+            progress.update(static_cast<double>(done) / static_cast<double>(all), done);
+        });
     progress.clear();
+    return scored;
+}
+
+void run(const Options& options, const eval::GenerateSets& generate) {
+    WorkFolder work(options.out);
+    const auto scored = scored_by(options, generate, work.path());
     if (!options.out.empty()) write_whole(options.out, scored.json.dump(2) + "\n");
     work.done();
     if (options.json)
@@ -239,42 +191,45 @@ void run(Options options) {
         print_text(scored);
 }
 
+void add_generator_options(CLI::App* command, Options& options) {
+    auto& generate = options.generate;
+    command
+        ->add_option("--generator", generate.generator,
+                     "Folder of a generator's training, or its weights: its motions are made")
+        ->type_name("RUN|WEIGHTS.h5");
+    command->add_option("--repeats", generate.sets, "Seeds that the generator is scored with")
+        ->check(CLI::Range(1, 10'000))
+        ->capture_default_str();
+    command->add_option("--per-class", generate.per_class, "Motions that the generator makes of a class")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    command->add_option("--generate-on", generate.device,
+                        "Where libtorch generates: cpu, cuda or cuda:N (default: cpu)");
+}
+
 void add_motion_options(CLI::App* command, Options& options) {
-    auto& request = options.request;
+    auto& request = options.motions;
     command->add_option("--recogniser", request.recogniser, "Folder of its training, or its weights")
         ->type_name("RUN|WEIGHTS.h5");
     command
         ->add_option("--single-recogniser", request.single_recogniser,
                      "One-person recogniser, for FIDa of motions of several persons")
         ->type_name("RUN|WEIGHTS.h5");
-    command->add_option("--real", request.real, "Dataset of real clips")->type_name("DATASET");
-    command->add_option("--split", request.split, "Split of the dataset")->capture_default_str();
+    command->add_option("--real", request.real.dataset, "Dataset of real clips")->type_name("DATASET");
+    command->add_option("--split", request.real.split, "Split of the dataset")->capture_default_str();
     command->add_option("--generated", options.generated, "Motions to score, each file a repeat")
         ->type_name("MOTIONS.h5");
     command
         ->add_option("--labels", options.labels,
                      "Lines of a motion's name and its action, where names do not tell it as A001_0 does")
         ->type_name("FILE");
-    command
-        ->add_option("--generator", options.generator,
-                     "Folder of a generator's training, or its weights: its motions are made")
-        ->type_name("RUN|WEIGHTS.h5");
-    command->add_option("--repeats", options.repeats, "Seeds that the generator is scored with")
-        ->check(CLI::Range(1, 10'000))
-        ->capture_default_str();
-    command->add_option("--per-class", options.per_class, "Motions that the generator makes of a class")
+    add_generator_options(command, options);
+    command->add_option("--window", request.real.window, "Frames of the windows that real clips are cut into")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
-    command->add_option("--generate-on", options.generate_on,
-                        "Where libtorch generates: cpu, cuda or cuda:N (default: cpu)");
-    command->add_option("--program", options.program, "The actformer that generates (default: this one)")
-        ->type_name("PROGRAM");
-    command->add_option("--window", request.window, "Frames of the windows that real clips are cut into")
-        ->check(CLI::Range(1, 1'000'000))
-        ->capture_default_str();
-    command->add_option("--frames", request.frames, "Take the first N frames of every motion (default: all)")
+    command->add_option("--frames", options.frames, "Take the first N frames of every motion (default: all)")
         ->check(CLI::Range(1, 1'000'000));
-    command->add_option("--batch", request.batch, "Sequences handed to the device together")
+    command->add_option("--batch", request.real.batch, "Sequences handed to the device together")
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();
     command->add_option("--device", options.device, "OpenCL device: a number, gpu, cpu, or part of a name");
@@ -282,23 +237,24 @@ void add_motion_options(CLI::App* command, Options& options) {
 
 }  // namespace
 
-void add_score(CLI::App& app) {
+void add_score(CLI::App& app, const eval::GenerateSets& generate) {
     auto options = std::make_shared<Options>();
     auto* command =
         app.add_subcommand("score", "Accuracy, FIDs, diversity of generated motions beside real ones");
-    auto& request = options->request;
     add_motion_options(command, *options);
     command
-        ->add_option("--real-features", request.real_features,
+        ->add_option("--real-features", options->features.real,
                      "Features of the real side, with labels, in place of recogniser and dataset")
         ->type_name("FEATURES.h5");
     command
-        ->add_option("--generated-features", request.generated_features,
+        ->add_option("--generated-features", options->features.generated,
                      "Features of the generated side, with labels, each file a repeat")
         ->type_name("FEATURES.h5");
     command->add_option("--seed", options->seed, "Seed of the first repeat, and of all random draws")
         ->capture_default_str();
-    command->add_option("--keep-features", request.keep, "Folder to leave the features of both sides in")
+    command
+        ->add_option("--keep-features", options->motions.keep,
+                     "Folder to leave the features of both sides in")
         ->type_name("DIR");
     command->add_option("-o,--out", options->out, "Scores as JSON; interrupted, it goes on where it was")
         ->type_name("SCORES.json");
@@ -313,7 +269,11 @@ void add_score(CLI::App& app) {
         "Real clips are cut into windows; their features are kept in $XDG_CACHE_HOME/actformer/features "
         "(or ~/.cache), so that the next scoring starts at once.\n"
         "Of several repeats the mean is given with the half-width of its 95 % interval, t s / sqrt(n).\n");
-    command->callback([options] { run(*options); });
+    command->callback([options, generate] { run(*options, generate); });
+}
+
+void add_score(CLI::App& app) {
+    add_score(app, {});
 }
 
 }  // namespace actformer::cli

@@ -16,16 +16,17 @@
 #include <string>
 #include <vector>
 
+#include "ingest/dataset/representation.hpp"
 #include "kernels/device.hpp"
 
 namespace actformer::eval {
 
 /// What a recogniser takes and gives.
 struct RecogniserInfo {
-    std::string kind;            ///< of network, as in "stgcn"
-    std::string source;          ///< the weights file, for messages
-    std::string representation;  ///< of the motions, as in "limb"
-    std::uint32_t channels = 0;  ///< numbers a joint, those of all persons together
+    std::string kind;    ///< of network, as in "stgcn"
+    std::string source;  ///< the weights file, for messages
+    ingest::Representation representation;
+    std::uint32_t channels = 0;  ///< numbers a node, those of all persons together
     std::uint32_t classes = 0;
     std::uint32_t features = 0;
     std::vector<int> parents;  ///< (K) of the graph; -1 for the root

@@ -1,4 +1,4 @@
-// Features files (DESIGN 3): in the making, where rows come in any order and the file appears when all are there; and read.
+// Features files: in the making, where rows come in any order and the file appears when all are there; and read.
 #pragma once
 
 #include <filesystem>

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/files/cache.hpp"
 #include "eval/stgcn/tuning.hpp"
+#include "ingest/dataset/dataset.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -31,29 +32,35 @@ bool can_write(const fs::path& folder) {
 
 }  // namespace
 
-fs::path features_cached_at(const FeaturesRequest& request, const kernels::Device& device) {
-    const ingest::Dataset dataset(request.input);
+fs::path features_cached_at(const FeatureExtractor& extractor, const WindowsOptions& windows,
+                            const kernels::Device& device) {
+    const ingest::Dataset dataset(windows.dataset);
     const auto& info = device.info();
     Checksum key;
-    key.add(fmt::format("{}|{}|{}|{}|{}|{}|{}|", ACTFORMER_VERSION, checksum_file(request.recogniser),
-                        request.persons_apart, request.window, info.name, info.platform, info.driver));
+    key.add(fmt::format("{}|{}|{}|{}|{}|{}|{}|", ACTFORMER_VERSION, extractor.checksum(),
+                        extractor.persons() == FeatureExtractor::Persons::apart, windows.window, info.name,
+                        info.platform, info.driver));
     key.add(describe(load_tiles(info)));
     if (dataset.header().centre_windows) key.add("|centred windows");
     for (const auto& shard : dataset.shards()) key.add("|" + shard.checksum);
-    for (const auto clip : dataset.split(request.split)) key.add("|" + dataset.clips()[clip].name);
+    for (const auto clip : dataset.split(windows.split)) key.add("|" + dataset.clips()[clip].name);
     return cache_folder() / "features" / (key.hex() + ".h5");
 }
 
-CachedFeatures cached_features(FeaturesRequest request, kernels::Device& device, const Tell& tell) {
-    const auto path = features_cached_at(request, device);
+CachedFeatures cached_features(FeatureExtractor& extractor, const WindowsOptions& windows,
+                               const fs::path& elsewhere, kernels::Device& device, const Tell& tell) {
+    const auto make = [&](const fs::path& file) {
+        const FeaturesTarget target{&extractor, file};
+        write_features(*open_windows(device, windows), std::span(&target, 1), tell);
+    };
+    const auto path = features_cached_at(extractor, windows, device);
     if (!can_write(path.parent_path())) {
-        make_features(request, device, tell);
-        return {read_features(request.out), request.out};
+        make(elsewhere);
+        return {read_features(elsewhere), elsewhere};
     }
     const FileLock lock(path.string() + ".lock");
     if (auto kept = read_if_whole(path)) return {std::move(*kept), path};
-    request.out = path;
-    make_features(request, device, tell);
+    make(path);
     return {read_features(path), path};
 }
 

@@ -6,17 +6,14 @@
 #include "base/error.hpp"
 #include "base/files/aside.hpp"
 #include "eval/scoring/real_features.hpp"
+#include "ingest/dataset/dataset.hpp"
 
 namespace actformer::eval {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-/// The clip that a window's name, as in "walk@60", tells.
-std::string clip_of(const std::string& window) {
-    return window.substr(0, window.rfind('@'));
-}
+using Persons = FeatureExtractor::Persons;
 
 Observed observed(StoredFeatures stored, std::string source) {
     Observed out;
@@ -51,77 +48,88 @@ void warn_of_lengths(ScoreReport& report, std::uint32_t window, const StoredFeat
                     window));
 }
 
-/// Features of motions and of a dataset, as far as they are not at hand already.
-class Maker {
+/// Features of both sides, as far as they are not at hand already.
+class Sides {
   public:
-    Maker(const ScoreRequest& request, const std::function<kernels::Device&()>& device,
-          const ScoreEvents& events)
-        : request_(request), device_(device), events_(events), dataset_(request.real) {
-        const auto weights = read_weights(request.recogniser);
-        check_fits(weights, dataset_);
-        for (const auto& set : request.generated)
-            if (!set.temporary) check_set(set, set.file(), weights);  // before the long work
-        if (request.single_recogniser.empty()) return;
-        if (dataset_.header().persons < 2)
-            throw Error("{}: has one person a clip, for which --single-recogniser has no use",
-                        request.real.string());
-        check_fits(read_weights(request.single_recogniser), dataset_, true);
+    Sides(const ScoreMotions& request, kernels::Device& device, const ScoreProgress& progress)
+        : request_(request),
+          device_(device),
+          progress_(progress),
+          whole_(device, request.recogniser, request.real.batch) {
+        if (!request.single_recogniser.empty())
+            single_.emplace(device, request.single_recogniser, request.real.batch, Persons::apart);
+        check();
     }
 
-    const ingest::Dataset& dataset() const { return dataset_; }
+    const std::vector<std::string>& classes() const { return classes_; }
+    const FeatureExtractor& whole() const { return whole_; }
+    const std::optional<FeatureExtractor>& single() const { return single_; }
 
     Observed real() {
-        Observed out = observed(real_features(false), request_.real.string());
-        if (!request_.single_recogniser.empty()) {
-            out.groups = real_features(true).samples;
-            out.groups->classes = out.samples.classes;
-        }
+        auto cached = real_features(whole_, "real.h5");
         if (!request_.keep.empty()) {
             fs::create_directories(request_.keep);
-            copy_whole(kept_real_, request_.keep / "real.h5");
+            copy_whole(cached.file, request_.keep / "real.h5");
         }
+        auto out = observed(std::move(cached.features), request_.real.dataset.string());
+        if (single_) add_groups(out, std::move(real_features(*single_, "real-groups.h5").features));
         return out;
     }
 
     Observed generated(std::size_t repeat) {
         const auto& set = request_.generated[repeat];
-        fs::path motions;
-        const auto whole = features_of(set, false, motions);
+        const auto whole = file_of(set, whole_);
+        make_missing(set);
         auto stored = read_features(whole);
-        if (repeat == 0) first_ = {{}, {}, stored.shortest, stored.longest};
-        auto out = observed(std::move(stored), set.name);
-        if (!request_.single_recogniser.empty()) {
-            out.groups = read_features(features_of(set, true, motions)).samples;
-            out.groups->classes = out.samples.classes;
+        if (repeat == 0) {
+            first_.shortest = stored.shortest;
+            first_.longest = stored.longest;
+            if (!request_.keep.empty()) copy_whole(whole, request_.keep / "generated.h5");
         }
-        if (repeat == 0 && !request_.keep.empty()) copy_whole(whole, request_.keep / "generated.h5");
-        if (set.temporary && !motions.empty()) fs::remove(motions);
+        auto out = observed(std::move(stored), set.name);
+        if (single_) add_groups(out, read_features(file_of(set, *single_)));
         return out;
     }
+
+    /// What is shown of each motion, set by set.
+    const std::vector<std::string>& views() const { return views_; }
 
     /// The first repeat's lengths.
     const StoredFeatures& first() const { return first_; }
 
   private:
-    FeaturesRequest basics(bool apart) const {
-        FeaturesRequest out;
-        out.recogniser = apart ? request_.single_recogniser : request_.recogniser;
-        out.window = request_.window;
-        out.batch = request_.batch;
-        out.persons_apart = apart;
-        return out;
+    static void add_groups(Observed& side, StoredFeatures stored) {
+        side.groups = std::move(stored.samples);
+        side.groups->classes = side.samples.classes;
     }
 
-    FeaturesRequest of_motions(const fs::path& motions, bool apart) const {
-        auto out = basics(apart);
-        out.input = motions;
-        out.frames = request_.frames;
-        out.labels = request_.labels;
-        return out;
+    /// Whatever would fail after the long work.
+    void check() {
+        const auto real = open_windows(device_, request_.real);
+        classes_ = real->info().classes;
+        check_side(real->info());
+        if (single_ && real->info().persons < 2)
+            throw Error("{}: has one person a clip, for which --single-recogniser has no use",
+                        request_.real.dataset.string());
+        for (const auto& set : request_.generated) {
+            const auto motions = set.open();
+            check_set(set, motions->info());
+            views_.push_back(motions->info().view);
+        }
     }
 
-    void check_set(const MotionSet& set, const fs::path& motions, const Weights& weights) const {
-        if (!check_motions(of_motions(motions, false), weights))
+    void check_side(const MotionsInfo& motions) const {
+        whole_.check_fits(motions);
+        whole_.check_classes(motions);
+        if (single_) single_->check_fits(motions);
+    }
+
+    void check_set(const MotionSet& set, const MotionsInfo& motions) const {
+        check_side(motions);
+        if (!motions.classes.empty() && motions.classes != classes_)
+            throw Error("{}: its classes are not those of {}; score motions of the same classes", set.name,
+                        request_.real.dataset.string());
+        if (motions.labels.empty())
             throw Error(
                 "{}: the motions' names do not tell their action, as A001_0 does; name a file of labels with "
                 "--labels",
@@ -129,95 +137,87 @@ class Maker {
     }
 
     Tell tell(const std::string& what) const {
-        if (!events_.progress) return {};
-        return [this, what](std::uint64_t done, std::uint64_t all) { events_.progress(what, done, all); };
+        if (!progress_) return {};
+        return [this, what](std::uint64_t done, std::uint64_t all) { progress_(what, done, all); };
     }
 
-    StoredFeatures real_features(bool apart) {
-        auto asked = basics(apart);
-        asked.input = request_.real;
-        asked.split = request_.split;
-        asked.out = request_.work / (apart ? "real-groups.h5" : "real.h5");
-        auto out = cached_features(asked, device_(), tell("real windows"));
-        if (!apart) kept_real_ = out.file;
-        return std::move(out.features);
+    CachedFeatures real_features(FeatureExtractor& extractor, const char* elsewhere) {
+        return cached_features(extractor, request_.real, request_.work / elsewhere, device_,
+                               tell("real windows"));
     }
 
-    /// The file with a set's features; makes it, and before it the motions, where need be.
-    fs::path features_of(const MotionSet& set, bool apart, fs::path& motions) {
-        const auto weights = basics(apart).recogniser;
+    fs::path file_of(const MotionSet& set, const FeatureExtractor& extractor) const {
         Checksum key;
-        key.add(fmt::format("{}|{}|{}|{}|{}", set.key, apart, request_.frames, checksum_file(weights),
-                            ACTFORMER_VERSION));
-        for (const auto& [name, label] : request_.labels) key.add(fmt::format("|{}|{}", name, label));
-        const auto features = request_.work / (key.hex() + ".h5");
-        if (fs::exists(features)) return features;
-        if (motions.empty()) {
-            motions = set.file();
-            if (!fs::is_regular_file(motions)) throw Error("{}: no motions came of it", set.name);
-            if (set.temporary) check_set(set, motions, read_weights(request_.recogniser));
-        }
-        auto asked = of_motions(motions, apart);
-        asked.out = features;
-        make_features(asked, device_(), tell(set.name));
-        return features;
+        key.add(fmt::format("{}|{}|{}|{}", set.key, extractor.persons() == Persons::apart,
+                            extractor.checksum(), ACTFORMER_VERSION));
+        return request_.work / (key.hex() + ".h5");
     }
 
-    const ScoreRequest& request_;
-    const std::function<kernels::Device&()>& device_;
-    const ScoreEvents& events_;
-    ingest::Dataset dataset_;
-    fs::path kept_real_;
+    /// The features of a set that are not there yet, in one pass over its motions.
+    void make_missing(const MotionSet& set) {
+        std::vector<FeaturesTarget> missing;
+        for (auto* extractor : {&whole_, single_ ? &*single_ : nullptr})
+            if (extractor && !fs::exists(file_of(set, *extractor)))
+                missing.push_back({extractor, file_of(set, *extractor)});
+        if (!missing.empty()) write_features(*set.open(), missing, tell(set.name));
+    }
+
+    const ScoreMotions& request_;
+    kernels::Device& device_;
+    const ScoreProgress& progress_;
+    FeatureExtractor whole_;
+    std::optional<FeatureExtractor> single_;
+    std::vector<std::string> classes_, views_;
     StoredFeatures first_;
 };
 
-Json provenance_of_motions(const ScoreRequest& request, const ingest::Dataset& dataset,
-                           const std::string& device) {
-    Json out{{"version", ACTFORMER_VERSION},
-             {"recogniser",
-              {{"path", request.recogniser.string()}, {"checksum", checksum_file(request.recogniser)}}}};
-    if (!request.single_recogniser.empty())
-        out["single_recogniser"] = {{"path", request.single_recogniser.string()},
-                                    {"checksum", checksum_file(request.single_recogniser)}};
+Json provenance_of_motions(const ScoreMotions& request, const Sides& sides, const std::string& device) {
+    const ingest::Dataset dataset(request.real.dataset);
+    const auto recogniser = [](const FeatureExtractor& extractor) {
+        return Json{{"path", extractor.weights().string()}, {"checksum", extractor.checksum()}};
+    };
+    Json out{{"version", ACTFORMER_VERSION}, {"recogniser", recogniser(sides.whole())}};
+    if (sides.single()) out["single_recogniser"] = recogniser(*sides.single());
     out["real"] = {{"dataset", dataset.header().name},
-                   {"path", request.real.string()},
+                   {"path", request.real.dataset.string()},
                    {"fingerprint", dataset.fingerprint()},
-                   {"split", request.split},
-                   {"window", request.window}};
+                   {"split", request.real.split},
+                   {"window", request.real.window}};
     out["generated"] = Json::array();
-    for (const auto& set : request.generated) {
-        Json one{{"name", set.name}, {"key", set.key}};
+    for (std::size_t i = 0; i < request.generated.size(); ++i) {
+        const auto& set = request.generated[i];
+        Json one{{"name", set.name}, {"key", set.key}, {"view", sides.views()[i]}};
         if (set.seed) one["seed"] = *set.seed;
         out["generated"].push_back(one);
     }
-    if (request.frames > 0) out["frames"] = request.frames;
     out["device"] = device;
     out["seed"] = request.options.seed;
     return out;
 }
 
-Scored score_motions(const ScoreRequest& request, const std::function<kernels::Device&()>& device,
-                     const ScoreEvents& events) {
+}  // namespace
+
+Scored score_motions(const ScoreMotions& request, kernels::Device& device, const ScoreProgress& progress) {
     if (request.generated.empty()) throw Error("no generated motions to score");
-    Maker maker(request, device, events);
+    Sides sides(request, device, progress);
     Scored out;
-    const auto real = maker.real();
+    const auto real = sides.real();
     out.report = score_repeats(
-        real, maker.dataset().header().classes, request.generated.size(),
-        [&](std::size_t i) { return maker.generated(i); }, request.options);
-    warn_of_lengths(out.report, request.window, maker.first());
+        real, sides.classes(), request.generated.size(), [&](std::size_t i) { return sides.generated(i); },
+        request.options);
+    warn_of_lengths(out.report, request.real.window, sides.first());
     out.json = to_json(out.report);
-    out.json["provenance"] = provenance_of_motions(request, maker.dataset(), device().info().name);
+    out.json["provenance"] = provenance_of_motions(request, sides, device.info().name);
     return out;
 }
 
-Scored score_features(const ScoreRequest& request) {
-    if (request.generated_features.empty()) throw Error("no generated features to score");
-    auto stored = read_features(request.real_features);
+Scored score_features(const ScoreFeatures& request) {
+    if (request.generated.empty()) throw Error("no generated features to score");
+    auto stored = read_features(request.real);
     const auto window = stored.shortest == stored.longest ? stored.longest : 0;
-    auto real = observed(std::move(stored), request.real_features.string());
+    auto real = observed(std::move(stored), request.real.string());
     std::vector<StoredFeatures> files;
-    for (const auto& path : request.generated_features) files.push_back(read_features(path));
+    for (const auto& path : request.generated) files.push_back(read_features(path));
     for (auto& file : files) {
         widen(real.samples, file.samples.classes);
         widen(file.samples, real.samples.classes);
@@ -229,7 +229,7 @@ Scored score_features(const ScoreRequest& request) {
     out.report = score_repeats(
         real, std::move(classes), files.size(),
         [&](std::size_t i) {
-            const auto& path = request.generated_features[i];
+            const auto& path = request.generated[i];
             checksums.push_back({{"name", path.string()}, {"key", checksum_file(path)}});
             widen(files[i].samples, real.samples.classes);
             return observed(files[i], path.string());
@@ -239,23 +239,10 @@ Scored score_features(const ScoreRequest& request) {
     out.json = to_json(out.report);
     out.json["provenance"] = {
         {"version", ACTFORMER_VERSION},
-        {"real",
-         {{"path", request.real_features.string()}, {"checksum", checksum_file(request.real_features)}}},
+        {"real", {{"path", request.real.string()}, {"checksum", checksum_file(request.real)}}},
         {"generated", checksums},
         {"seed", request.options.seed}};
     return out;
-}
-
-}  // namespace
-
-MotionSet motions_in(const fs::path& file) {
-    if (!fs::is_regular_file(file)) throw Error("{}: no such file of motions", file.string());
-    return {file.string(), checksum_file(file), {}, [file] { return file; }, false};
-}
-
-Scored score(const ScoreRequest& request, const std::function<kernels::Device&()>& device,
-             const ScoreEvents& events) {
-    return request.real_features.empty() ? score_motions(request, device, events) : score_features(request);
 }
 
 }  // namespace actformer::eval

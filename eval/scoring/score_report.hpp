@@ -34,7 +34,7 @@ std::optional<double> value_of(const Score& score, const Metric& metric);
 /// Of the repeats that have it; none where none has.
 std::optional<Interval> summary(const ScoreReport& report, const Metric& metric);
 
-/// One object (DESIGN 3): accuracy (0..1), fid_mean, fid_whole, fida_mean, fida_whole, diversity, multimodality, each
+/// One object: accuracy (0..1), fid_mean, fid_whole, fida_mean, fida_whole, diversity, multimodality, each
 ///   {"mean": .., "ci95": half-width or null, "repeats": [..]}      and absent where it is not measured;
 /// beside them
 ///   "floor"      the same metrics of the real side against itself, one number each, and how it was split

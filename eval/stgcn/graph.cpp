@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ingest/dataset/topology.hpp"
+
 namespace actformer::eval {
 namespace {
 
@@ -26,11 +28,10 @@ const Graph& ntu_graph() {
     return graph;
 }
 
-Graph recogniser_graph(const ingest::Topology& topology) {
-    if (topology.parents == ingest::ntu25().parents) return ntu_graph();
-    const auto root =
-        std::find(topology.parents.begin(), topology.parents.end(), -1) - topology.parents.begin();
-    return {topology.parents, static_cast<std::uint32_t>(root)};
+Graph recogniser_graph(const std::vector<int>& parents) {
+    if (parents == ingest::ntu25().parents) return ntu_graph();
+    const auto root = std::find(parents.begin(), parents.end(), -1) - parents.begin();
+    return {parents, static_cast<std::uint32_t>(root)};
 }
 
 std::array<Adjacency, 3> partition(const Graph& graph) {

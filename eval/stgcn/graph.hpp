@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "ingest/dataset/topology.hpp"
-
 namespace actformer::eval {
 
 /// A tree of joints and the joint at its centre.
@@ -23,8 +21,9 @@ struct Graph {
 /// (20).
 const Graph& ntu_graph();
 
-/// The graph of a recogniser for `topology`: ntu_graph() for NTU's 25 joints, else the skeleton's own tree about its root.
-Graph recogniser_graph(const ingest::Topology& topology);
+/// The graph of a recogniser for nodes with these parents: ntu_graph() for NTU's 25 joints, else the tree itself about its
+/// root.
+Graph recogniser_graph(const std::vector<int>& parents);
 
 /// Dense (K, K): row the source v, column the joint w that gathers.
 using Adjacency = std::vector<double>;

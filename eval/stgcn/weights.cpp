@@ -8,6 +8,7 @@
 #include "base/files/aside.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
+#include "ingest/dataset/subjects.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -100,11 +101,7 @@ Weights read_weights(const std::filesystem::path& file_path) {
     weights.source = path;
     weights.channels = one_number(file, path, "channels", 1, most_channels);
     weights.classes = one_number(file, path, "classes", 1, most_classes);
-    if (file.has_attribute("representation")) {
-        const auto texts = file.attribute_texts("representation");
-        if (texts.size() != 1) throw Error("{}: attribute 'representation' is not one text", path);
-        weights.representation = texts[0];
-    }
+    weights.representation = ingest::read_representation(file, path).value_or(ingest::Representation::limb);
     weights.graph.parents = read_parents(file, path);
     weights.graph.center = one_number(file, path, "center", 0, std::int64_t{weights.joints()} - 1);
     for (std::size_t i = 0; i < stgcn_layers; ++i) weights.widths[i] = read_width(file, path, i);
@@ -122,7 +119,7 @@ void write_weights(const std::filesystem::path& path, const Weights& weights) {
     for (const auto& [name, shape, role, fan_in] : stgcn_tensors(weights))
         file.write<float>(name, hdf5::Shape(shape.begin(), shape.end()), weights.at(name));
     file.attribute("kind", std::string("stgcn"));
-    file.attribute("representation", weights.representation);
+    file.attribute("representation", weights.representation.name());
     file.attribute("channels", std::int64_t{weights.channels});
     file.attribute("classes", std::int64_t{weights.classes});
     file.attribute("parents",
@@ -151,12 +148,6 @@ Weights random_weights(std::uint32_t channels, std::uint32_t classes, const Grap
         weights.tensors[tensor.name] = std::move(values);
     }
     return weights;
-}
-
-std::filesystem::path weights_of(const std::filesystem::path& recogniser) {
-    if (!std::filesystem::is_directory(recogniser)) return recogniser;
-    const auto best = recogniser / "weights-best.h5";
-    return std::filesystem::exists(best) ? best : recogniser / "weights-last.h5";
 }
 
 }  // namespace actformer::eval

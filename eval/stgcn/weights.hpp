@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "eval/stgcn/network.hpp"
+#include "ingest/dataset/representation.hpp"
 
 namespace actformer::eval {
 
 /// A network of any width with its tensors.
 struct Weights : StgcnShape {
-    std::string source;                   ///< the file, for messages
-    std::string representation = "limb";  ///< of the motions; as files without the attribute have it
+    std::string source;                     ///< the file, for messages
+    ingest::Representation representation;  ///< of the motions; limbs where the file has no such attribute
     std::map<std::string, std::vector<float>> tensors;
 
     const std::vector<float>& at(const std::string& name) const { return tensors.at(name); }
@@ -24,10 +25,6 @@ struct Weights : StgcnShape {
 /// Throws Error, one line naming the file and the tensor or attribute, for what is missing, unknown, of another shape, not
 /// finite, or no variance; for parents that are no tree, and a centre outside it.
 Weights read_weights(const std::filesystem::path& path);
-
-/// The weights that `recogniser` stands for: of a training's folder the best ones, or the last where none was scored; a file
-/// stands for itself.
-std::filesystem::path weights_of(const std::filesystem::path& recogniser);
 
 /// Throws Error where the file cannot be written.
 void write_weights(const std::filesystem::path& path, const Weights& weights);

@@ -132,4 +132,11 @@ std::vector<fs::path> datasets_at(const fs::path& path) {
     return found;
 }
 
+fs::path one_dataset_at(const fs::path& path) {
+    const auto folders = datasets_at(path);
+    if (folders.size() == 1) return folders[0];
+    throw Error("{}: holds {} datasets; take one at a time, as in {}", path.string(), folders.size(),
+                folders[0].string());
+}
+
 }  // namespace actformer::ingest

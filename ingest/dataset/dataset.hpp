@@ -96,4 +96,7 @@ std::vector<std::string> verify_dataset(const std::filesystem::path& folder);
 /// there are none.
 std::vector<std::filesystem::path> datasets_at(const std::filesystem::path& path);
 
+/// The one of them. Throws Error where there are none or several.
+std::filesystem::path one_dataset_at(const std::filesystem::path& path);
+
 }  // namespace actformer::ingest

@@ -4,12 +4,17 @@
 
 namespace actformer::ingest {
 
-View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split,
-               const std::function<void(std::size_t, std::size_t)>& progress) {
+std::vector<std::size_t> clips_in(const Dataset& dataset, const std::string& split) {
     auto clips = dataset.split(split);
     if (clips.empty())
         throw Error("{}: split {} holds no clip; actformer inspect lists the splits",
                     dataset.folder().string(), split);
+    return clips;
+}
+
+View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split,
+               const std::function<void(std::size_t, std::size_t)>& progress) {
+    auto clips = clips_in(dataset, split);
     kernels::ClipTable table;
     const auto& header = dataset.header();
     table.persons = header.persons;

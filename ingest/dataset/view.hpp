@@ -15,6 +15,9 @@ struct View {
     kernels::ClipStore store;
 };
 
+/// Indices into dataset.clips() of those in `split`. Throws Error for a split that does not exist or holds no clip.
+std::vector<std::size_t> clips_in(const Dataset& dataset, const std::string& split);
+
 /// Reads the clips of `split` ("all" for every clip) onto the device, calling `progress(clips read, of how many)` now and
 /// then. Throws Error for a split that does not exist or holds no clip, and for more frames than the device takes.
 View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split,

@@ -91,7 +91,7 @@ StgcnSettings network_for(const RecogniserSettings& settings, const ingest::Topo
     StgcnSettings network;
     network.channels = 3 * persons;
     network.classes = static_cast<std::uint32_t>(classes);
-    network.graph = eval::recogniser_graph(topology);
+    network.graph = eval::recogniser_graph(topology.parents);
     network.width = settings.width;
     network.dropout = settings.dropout;
     return network;

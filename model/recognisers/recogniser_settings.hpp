@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "ingest/dataset/topology.hpp"
 #include "model/recognisers/stgcn.hpp"
 #include "model/train/config.hpp"
 

@@ -1,46 +1,34 @@
 #include "model/train/judge.hpp"
 
-#include "base/checksum/checksum.hpp"
 #include "eval/metrics/confusion.hpp"
 #include "eval/metrics/fid.hpp"
-#include "eval/scoring/features.hpp"
-#include "eval/stgcn/recogniser.hpp"
-#include "eval/stgcn/tuning.hpp"
+#include "eval/scoring/feature_extractor.hpp"
+#include "eval/scoring/windows_source.hpp"
 #include "model/train/window_feed.hpp"
 
 namespace actformer::model {
 namespace {
-
-std::filesystem::path weights_at(const std::filesystem::path& recogniser) {
-    std::error_code ignored;
-    return std::filesystem::is_directory(recogniser, ignored) ? recogniser / "weights-best.h5" : recogniser;
-}
 
 constexpr std::uint32_t together = 64;
 
 }  // namespace
 
 struct Judge::Parts {
-    Parts(const std::filesystem::path& path, const std::string& opencl)
-        : checksum(checksum_file(path)),
-          weights(eval::read_weights(path)),
-          device(opencl),
-          recogniser(device, weights, eval::load_tiles(device.info())) {}
+    Parts(const std::filesystem::path& recogniser, const std::string& opencl)
+        : device(opencl), extractor(device, recogniser, together) {}
 
     /// `count` sequences (count, P*D, frames, K) with their labels, added to `samples`.
     void see(std::span<const float> values, std::span<const std::uint32_t> labels, eval::Samples& samples) {
-        const auto got = recogniser.recognise(values, static_cast<std::uint32_t>(labels.size()), frames);
+        const auto got = extractor.extract(values, static_cast<std::uint32_t>(labels.size()), frames);
         samples.features.insert(samples.features.end(), got.features.begin(), got.features.end());
         samples.logits.insert(samples.logits.end(), got.logits.begin(), got.logits.end());
         samples.labels.insert(samples.labels.end(), labels.begin(), labels.end());
     }
 
-    eval::Samples nothing() const { return {weights.features(), weights.classes, {}, {}, {}}; }
+    eval::Samples nothing() const { return {extractor.features(), extractor.classes(), {}, {}, {}}; }
 
-    std::string checksum;
-    eval::Weights weights;
     kernels::Device device;
-    eval::StgcnRecogniser recogniser;
+    eval::FeatureExtractor extractor;
     eval::Statistics real;
     double real_accuracy = 0;
     std::uint32_t frames = 0;
@@ -48,8 +36,10 @@ struct Judge::Parts {
 
 Judge::Judge(const std::filesystem::path& recogniser, const std::string& opencl,
              const ingest::Dataset& dataset, const kernels::ClipStore& clips, std::uint32_t frames)
-    : parts_(std::make_unique<Parts>(weights_at(recogniser), opencl)) {
-    eval::check_fits(parts_->weights, dataset);
+    : parts_(std::make_unique<Parts>(recogniser, opencl)) {
+    const auto motions = eval::describe(dataset);
+    parts_->extractor.check_fits(motions);
+    parts_->extractor.check_classes(motions);
     parts_->frames = frames;
     auto samples = parts_->nothing();
     const auto one = clips.table().frame_values() * frames;
@@ -71,7 +61,7 @@ std::size_t Judge::real_windows() const {
 }
 
 const std::string& Judge::checksum() const {
-    return parts_->checksum;
+    return parts_->extractor.checksum();
 }
 
 JudgeScores Judge::score(const Labelled& motions) {

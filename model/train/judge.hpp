@@ -1,5 +1,4 @@
-// Scores of a generator while it trains: what a recogniser, run in OpenCL, makes of its motions beside the real windows of
-// the same split (DESIGN 4.9).
+// Scores of a generator while it trains, from a recogniser in OpenCL: its motions beside the real windows of the same split.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +27,8 @@ struct JudgeScores {
 
 class Judge {
   public:
-    /// `recogniser`: weights, or the folder of a training, whose best are taken. Looks at every consecutive window of `clips`,
-    /// a split of `dataset`. Throws Error where the recogniser does not fit the dataset.
+    /// `recogniser`: weights, or the folder of a training (see eval::weights_of). Takes features of every consecutive window of
+    /// `clips`, a split of `dataset`. Throws Error where the recogniser does not fit the dataset.
     Judge(const std::filesystem::path& recogniser, const std::string& opencl, const ingest::Dataset& dataset,
           const kernels::ClipStore& clips, std::uint32_t frames);
     ~Judge();

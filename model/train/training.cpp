@@ -38,11 +38,7 @@ at::ScalarType torch_type(const std::string& precision) {
 
 ingest::Dataset dataset_to_train_on(const std::string& data) {
     if (data.empty()) throw Error("no dataset: give --data DATASET, or data: in the configuration");
-    const auto folders = ingest::datasets_at(data);
-    if (folders.size() != 1)
-        throw Error("{}: holds {} datasets; train on one, as in {}", data, folders.size(),
-                    folders[0].string());
-    return ingest::Dataset(folders[0]);
+    return ingest::Dataset(ingest::one_dataset_at(data));
 }
 
 at::Tensor values_of(const Windows& windows, std::int64_t channels, std::int64_t frames, std::int64_t joints,

@@ -223,9 +223,8 @@ class Planner {
                 run.run = folder_of(*run.generator) + "/run";
                 run.motions = folder_of(*run.generate) + "/motions.h5";
                 job.needs.push_back(*run.generator);
-                words.insert(words.end(),
-                             {"--generator", run.run, "--repeats", std::to_string(row.repeats), "--per-class",
-                              std::to_string(row.per_class), "--program", "{program}"});
+                words.insert(words.end(), {"--generator", run.run, "--repeats", std::to_string(row.repeats),
+                                           "--per-class", std::to_string(row.per_class)});
                 if (const auto device = row.set.find("device"); device != row.set.end())
                     words.insert(words.end(), {"--generate-on", device->second});
             } else {

@@ -1,7 +1,6 @@
 // `actformer score` as its users meet it, beside the reference program.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -366,46 +365,6 @@ TEST_F(Score, TakesLabelsFromAFile) {
     expect_refused(arguments, {"labels.txt", "line 1", "walk0"});
     write_file(dir / "labels.txt", "walk0 1\n");
     expect_refused(arguments, {"plain.h5", "walk1"});
-}
-
-TEST_F(Score, RunsTheGeneratorOnceASeed) {
-    for (unsigned seed = 5; seed < 8; ++seed) motions(fmt::format("made-{}.h5", seed), 4, 3, 1, seed);
-    fs::create_directory(dir / "run");
-    write_file(dir / "run/config.yaml", "model: generator\n");
-    const auto program = at("fake");  // stands in for `actformer generate`
-    write_file(program,
-               "#!/bin/sh\n"
-               "while [ $# -gt 0 ]; do case $1 in -o) out=$2;; --seed) seed=$2;; --per-class) n=$2;; esac; "
-               "shift; done\n"
-               "echo \"$seed $n\" >> " +
-                   at("calls") +
-                   "\n"
-                   "[ -e " +
-                   at("broken") +
-                   " ] && [ $seed = 7 ] && { echo 'actformer: out of luck' >&2; exit 1; }\n"
-                   "cp " +
-                   dir.path().string() + "/made-$seed.h5 $out\n");
-    ::chmod(program.c_str(), 0755);
-    const auto arguments = one_person() + "--generator " + at("run") +
-                           " --repeats 3 --seed 5 --per-class 3 --program " + program;
-    write_file(dir / "broken", "");
-    const auto failed = score(arguments + " -o " + at("s.json"));
-    EXPECT_EQ(failed.exit, 1);
-    EXPECT_NE(failed.output.find("out of luck"), std::string::npos) << failed.output;
-    EXPECT_FALSE(fs::exists(at("s.json")));
-    fs::remove(dir / "broken");
-    const auto again = score(arguments + " -o " + at("s.json"));
-    ASSERT_EQ(again.exit, 0) << again.output;
-    EXPECT_EQ(read_file(at("calls")), "5 3\n6 3\n7 3\n7 3\n")
-        << "what was made before the failure is not made again";
-    EXPECT_FALSE(fs::exists(at("s.json.work")));
-    const auto json = nlohmann::json::parse(read_file(at("s.json")));
-    EXPECT_EQ(json["provenance"]["generated"][2]["seed"], 7);
-    const auto same = scored(one_person() + "--seed 5 --generated " + at("made-5.h5") + " " +
-                             at("made-6.h5") + " " + at("made-7.h5"));
-    EXPECT_EQ(json["fid_mean"], same["fid_mean"]);
-    EXPECT_EQ(json["confusion"], same["confusion"]);
-    expect_refused(one_person() + "--generator " + at("nowhere"), {"nowhere", "no such folder"});
 }
 
 TEST_F(Score, WarnsOfCollapseAndOtherLengths) {

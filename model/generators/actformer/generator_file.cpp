@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/hdf5/reader.hpp"
+#include "eval/run_weights.hpp"
 #include "model/generators/actformer/gan.hpp"
 #include "model/nn/weights_file.hpp"
 
@@ -14,14 +15,6 @@ namespace actformer::model {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path file_at(const fs::path& path) {
-    std::error_code ignored;
-    if (!fs::is_directory(path, ignored)) return path;
-    for (const auto* name : {"weights-best.h5", "weights-average.h5", "weights-last.h5"})
-        if (fs::exists(path / name, ignored)) return path / name;
-    throw Error("{}: holds no weights-*.h5; is it the folder of a generator's training?", path.string());
-}
 
 std::string text_of(const hdf5::Reader& file, const std::string& name, const std::string& where) {
     const auto texts = file.attribute_texts(name);
@@ -59,7 +52,7 @@ void save_generator(const fs::path& path, const std::vector<Array>& arrays, cons
 }
 
 GeneratorFile load_generator(const fs::path& path) {
-    const auto at = file_at(path);
+    const auto at = eval::weights_of(path);
     const auto where = at.string();
     const hdf5::Reader file(at);
     if (!file.has_attribute("model") || text_of(file, "model", where) != "generator")

@@ -126,7 +126,7 @@ TEST(Recogniser, IsOpenedByTheKindOfItsWeights) {
     kernels::Device device;
     const auto opened = eval::open_recogniser(device, dir / "w.h5");
     EXPECT_EQ(opened->info().kind, "stgcn");
-    EXPECT_EQ(opened->info().representation, "limb");
+    EXPECT_EQ(opened->info().representation, ingest::Representation::limb);
     EXPECT_EQ(opened->info().channels, 6U);
     EXPECT_EQ(opened->info().joints(), 25U);
     EXPECT_EQ(opened->info().classes, 5U);

@@ -1,0 +1,35 @@
+#include "cli/motion_options.hpp"
+
+#include "base/error.hpp"
+#include "eval/scoring/motions_file_source.hpp"
+#include "eval/scoring/windows_source.hpp"
+#include "ingest/dataset/dataset.hpp"
+
+namespace actformer::cli {
+
+std::unique_ptr<eval::MotionSource> MotionOptions::open(kernels::Device& on) const {
+    if (!std::filesystem::exists(input)) throw Error("{}: no such file or folder", input.string());
+    if (!std::filesystem::is_directory(input)) return eval::open_motions(input, {frames, batch, {}});
+    return eval::open_windows(on, {ingest::one_dataset_at(input), split, window, batch});
+}
+
+void add_motion_options(CLI::App* command, MotionOptions& options) {
+    command->add_option("--recogniser", options.recogniser, "Folder of its training, or its weights")
+        ->required()
+        ->type_name("RUN|WEIGHTS.h5");
+    command->add_option("input", options.input, "Motions file in the public layout, or dataset folder")
+        ->required()
+        ->type_name("INPUT");
+    command->add_option("--frames", options.frames, "Take the first N frames of every motion (default: all)")
+        ->check(CLI::Range(1, 1'000'000));
+    command->add_option("--split", options.split, "Split of the dataset")->capture_default_str();
+    command->add_option("--window", options.window, "Frames of the windows that a dataset is cut into")
+        ->check(CLI::Range(1, 1'000'000))
+        ->capture_default_str();
+    command->add_option("--batch", options.batch, "Sequences handed to the device together")
+        ->check(CLI::Range(1, 65536))
+        ->capture_default_str();
+    command->add_option("--device", options.device, "OpenCL device: a number, gpu, cpu, or part of a name");
+}
+
+}  // namespace actformer::cli

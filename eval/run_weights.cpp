@@ -1,0 +1,16 @@
+#include "eval/run_weights.hpp"
+
+#include "base/error.hpp"
+
+namespace actformer::eval {
+
+std::filesystem::path weights_of(const std::filesystem::path& run) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(run, ignored)) return run;
+    for (const auto* name : {"weights-best.h5", "weights-average.h5", "weights-last.h5"})
+        if (std::filesystem::exists(run / name, ignored)) return run / name;
+    throw Error("{}: holds no weights-*.h5; is it the folder of a training that has done an epoch?",
+                run.string());
+}
+
+}  // namespace actformer::eval

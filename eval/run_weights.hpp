@@ -1,0 +1,12 @@
+// Which weights a training's folder stands for.
+#pragma once
+
+#include <filesystem>
+
+namespace actformer::eval {
+
+/// Of a training's folder weights-best.h5, else weights-average.h5, else weights-last.h5; a file stands for itself. Throws Error
+/// for a folder without any of them.
+std::filesystem::path weights_of(const std::filesystem::path& run);
+
+}  // namespace actformer::eval

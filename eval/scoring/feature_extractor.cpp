@@ -1,0 +1,81 @@
+#include "eval/scoring/feature_extractor.hpp"
+
+#include "base/checksum/checksum.hpp"
+#include "base/error.hpp"
+#include "eval/metrics/fid.hpp"
+#include "eval/run_weights.hpp"
+#include "eval/stgcn/graph.hpp"
+
+namespace actformer::eval {
+namespace {
+
+/// The recogniser's tree is the skeleton's, or the one that NTU's recognisers use for it.
+bool same_tree(const std::vector<int>& recogniser, const std::vector<int>& skeleton) {
+    if (recogniser == skeleton) return true;
+    return recogniser == recogniser_graph(skeleton).parents;
+}
+
+}  // namespace
+
+FeatureExtractor::FeatureExtractor(kernels::Device& device, const std::filesystem::path& recogniser,
+                                   std::uint32_t batch, Persons persons)
+    : weights_(weights_of(recogniser)),
+      checksum_(checksum_file(weights_)),
+      recogniser_(open_recogniser(device, weights_, batch)),
+      persons_(persons) {}
+
+void FeatureExtractor::check_fits(const MotionsInfo& motions) const {
+    const auto& r = recogniser();
+    const bool apart = persons_ == Persons::apart;
+    if (apart && motions.persons > 1 && r.channels != motions.channels / motions.persons)
+        throw Error(
+            "{}: takes {} channels; the recogniser that sees the persons of {} apart must take one person, "
+            "{}",
+            r.source, r.channels, motions.source, motions.channels / motions.persons);
+    if (r.channels == 0 || (apart ? motions.channels % r.channels != 0 : motions.channels != r.channels) ||
+        motions.joints != r.joints())
+        throw Error(
+            "{}: {} has {} channels (numbers a joint, of all persons) and {} joints where the recogniser "
+            "{} "
+            "takes {} and {}; choose one trained on such motions",
+            motions.source, motions.names.empty() ? "a clip" : "'" + motions.names[0] + "'", motions.channels,
+            motions.joints, r.source, r.channels, r.joints());
+    if (motions.representation && *motions.representation != r.representation)
+        throw Error(
+            "{}: its motions are of representation '{}' and the recogniser {} takes '{}'; choose one "
+            "trained on such motions",
+            motions.source, motions.representation->name(), r.source, r.representation.name());
+    if (!motions.parents.empty() && !same_tree(r.parents, motions.parents))
+        throw Error(
+            "{}: its skeleton is another tree than that of the recogniser {}; choose one trained on such "
+            "motions",
+            motions.source, r.source);
+}
+
+void FeatureExtractor::check_classes(const MotionsInfo& motions) const {
+    if (persons_ == Persons::apart) return;
+    const auto& r = recogniser();
+    if (!motions.classes.empty() && motions.classes.size() != r.classes)
+        throw Error("{}: has {} classes and the recogniser {} knows {}; choose one trained on such a dataset",
+                    motions.source, motions.classes.size(), r.source, r.classes);
+    for (std::size_t i = 0; i < motions.labels.size(); ++i)
+        if (motions.labels[i] >= r.classes)
+            throw Error("{}: '{}' is of action {} and the recogniser {} knows {} classes", motions.source,
+                        motions.names[i], motions.labels[i] + 1, r.source, r.classes);
+}
+
+Recognised FeatureExtractor::extract(const MotionBatch& batch, const MotionsInfo& motions) {
+    const auto persons = motions.channels / recogniser().channels;
+    const auto sequences = static_cast<std::uint32_t>(batch.rows.size()) * persons;
+    auto seen = batch.on_device ? recogniser_->recognise(*batch.on_device, sequences, batch.frames)
+                                : recogniser_->recognise(batch.values, sequences, batch.frames);
+    if (persons_ == Persons::together) return seen;
+    return {largest_of_group(seen.features, features(), persons), {}};
+}
+
+Recognised FeatureExtractor::extract(std::span<const float> values, std::uint32_t count,
+                                     std::uint32_t frames) {
+    return recogniser_->recognise(values, count, frames);
+}
+
+}  // namespace actformer::eval

@@ -1,0 +1,52 @@
+// A recogniser that is opened once and shown motions from any source.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "eval/recogniser.hpp"
+#include "eval/scoring/motion_source.hpp"
+
+namespace actformer::eval {
+
+class FeatureExtractor {
+  public:
+    /// How it sees several persons: together on the channels, or, by a one-person recogniser, each alone. In the latter case a
+    /// group's features are the largest of its persons' in every channel (FIDa), and there are no logits: the
+    /// recogniser's classes are others than the motions'.
+    enum class Persons { together, apart };
+
+    /// `recogniser`: folder of a training, or weights (see weights_of). `batch`: the most motions that will be shown together.
+    /// `device` must outlive the extractor. Throws Error as open_recogniser does.
+    FeatureExtractor(kernels::Device& device, const std::filesystem::path& recogniser,
+                     std::uint32_t batch = 64, Persons persons = Persons::together);
+
+    const std::filesystem::path& weights() const { return weights_; }
+    const std::string& checksum() const { return checksum_; }  ///< of the weights
+    const RecogniserInfo& recogniser() const { return recogniser_->info(); }
+    Persons persons() const { return persons_; }
+    std::uint32_t features() const { return recogniser().features; }
+    std::uint32_t classes() const { return persons_ == Persons::apart ? 0 : recogniser().classes; }
+
+    /// Throws Error, one line, unless the recogniser can be shown these motions: representation, channels, joints and tree
+    /// (for NTU's 25 joints, whose hands the recogniser links otherwise, either tree).
+    void check_fits(const MotionsInfo& motions) const;
+
+    /// Throws Error unless the motions' labels and classes are the recogniser's. Of Persons::apart they do not matter.
+    void check_classes(const MotionsInfo& motions) const;
+
+    /// A batch of motions that fit: features (rows, features()) and logits (rows, classes()).
+    Recognised extract(const MotionBatch& batch, const MotionsInfo& motions);
+
+    /// The same of motions in memory: values (count, channels, frames, K), persons together.
+    Recognised extract(std::span<const float> values, std::uint32_t count, std::uint32_t frames);
+
+  private:
+    std::filesystem::path weights_;
+    std::string checksum_;
+    std::unique_ptr<Recogniser> recogniser_;
+    Persons persons_;
+};
+
+}  // namespace actformer::eval

@@ -1,0 +1,146 @@
+#include "model/generators/generated_motions.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "model/cpu/blas.hpp"
+#include "model/generators/actformer/generator_file.hpp"
+#include "model/generators/actformer/motion_maker.hpp"
+#include "model/train/training.hpp"
+
+namespace actformer::model {
+namespace {
+
+/// A generator that is ready, and what is asked of it.
+struct Loaded {
+    GeneratorFile file;
+    std::vector<std::uint32_t> labels;
+    std::uint32_t per_class = 0, made_frames = 0, frames = 0;  ///< frames: what is left of made_frames
+    std::string source;
+};
+
+class GeneratedMotions final : public eval::MotionSource {
+  public:
+    GeneratedMotions(std::shared_ptr<const Loaded> loaded, std::uint64_t seed)
+        : loaded_(std::move(loaded)), maker_(*loaded_->file.network, seed, loaded_->made_frames) {
+        const auto& subjects = loaded_->file.subjects;
+        info_.source = loaded_->source;
+        info_.representation = subjects.representation;
+        info_.classes = subjects.classes;
+        info_.persons = subjects.persons;
+        info_.channels = subjects.persons * subjects.representation.numbers();
+        info_.joints = subjects.representation.nodes(subjects.topology);
+        info_.parents = subjects.representation.node_parents(subjects.topology);
+        info_.shortest = info_.longest = loaded_->frames;
+        info_.fingerprint = fmt::format("{}|{}", loaded_->file.checksum, seed);
+        info_.view = loaded_->frames == loaded_->made_frames
+                         ? "whole motions"
+                         : fmt::format("first {} frames", loaded_->frames);
+        list();
+    }
+
+    const eval::MotionsInfo& info() const override { return info_; }
+    eval::MotionBatch next() override;
+
+  private:
+    void list();
+
+    std::shared_ptr<const Loaded> loaded_;
+    MotionMaker maker_;
+    eval::MotionsInfo info_;
+    std::vector<std::uint64_t> rows_;  ///< (labels, per_class) of each motion as it is made
+    std::size_t class_ = 0;            ///< of the next batch, among Loaded::labels
+    std::uint32_t first_ = 0;          ///< of the next batch, within its class
+    at::Tensor made_;
+};
+
+/// Rows follow the names in the order in which a file has them: A001_10 before A001_2.
+void GeneratedMotions::list() {
+    std::vector<std::string> made;
+    for (const auto label : loaded_->labels)
+        for (std::uint32_t i = 0; i < loaded_->per_class; ++i)
+            made.push_back(fmt::format("A{:03}_{}", label + 1, i));
+    std::vector<std::size_t> order(made.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return made[a] < made[b]; });
+    rows_.resize(made.size());
+    for (std::size_t row = 0; row < order.size(); ++row) {
+        rows_[order[row]] = row;
+        info_.names.push_back(made[order[row]]);
+        info_.labels.push_back(loaded_->labels[order[row] / loaded_->per_class]);
+    }
+}
+
+eval::MotionBatch GeneratedMotions::next() try {
+    constexpr auto chunk = MotionMaker::chunk;
+    if (class_ == loaded_->labels.size()) return {};
+    const auto count = std::min(chunk, loaded_->per_class - first_);
+    made_ = maker_.make(loaded_->labels[class_], first_ / chunk)
+                .narrow(0, 0, count)
+                .narrow(2, 0, loaded_->frames)
+                .contiguous();
+    eval::MotionBatch batch;
+    const auto row = rows_.begin() + static_cast<std::ptrdiff_t>(class_ * loaded_->per_class + first_);
+    batch.rows.assign(row, row + count);
+    if (!at::isfinite(made_).all().item<bool>())
+        throw Error("{}: motions such as '{}' hold numbers that are not finite; take earlier weights",
+                    info_.source, info_.names[batch.rows[0]]);
+    batch.frames = loaded_->frames;
+    batch.values = {made_.data_ptr<float>(), static_cast<std::size_t>(made_.numel())};
+    first_ += count;
+    if (first_ == loaded_->per_class) {
+        first_ = 0;
+        ++class_;
+    }
+    return batch;
+} catch (const c10::Error& e) {
+    throw Error("libtorch: {}", one_line(e));
+}
+
+Loaded load(const eval::GeneratedRequest& request) {
+    Loaded loaded{load_generator(request.generator),
+                  request.labels,
+                  request.per_class,
+                  0,
+                  request.frames,
+                  request.generator};
+    const auto classes = loaded.file.subjects.classes.size();
+    if (loaded.labels.empty()) {
+        loaded.labels.resize(classes);
+        std::iota(loaded.labels.begin(), loaded.labels.end(), 0U);
+    }
+    for (const auto label : loaded.labels)
+        if (label >= classes)
+            throw Error(
+                "{}: generates {} classes, and the real side has class {}; score on the data that it learnt",
+                request.generator, classes, label + 1);
+    loaded.made_frames = loaded.file.network->settings().frames;
+    if (loaded.frames > loaded.made_frames)
+        throw Error("{}: --frames {}, but its motions have {}; ask for fewer", request.generator,
+                    loaded.frames, loaded.made_frames);
+    if (loaded.frames == 0) loaded.frames = loaded.made_frames;
+    loaded.file.network->to(torch_device(request.device.empty() ? "cpu" : request.device));
+    return loaded;
+}
+
+}  // namespace
+
+std::vector<eval::MotionSet> generated_sets(const eval::GeneratedRequest& request) {
+    set_threads(0);
+    const auto loaded = std::make_shared<const Loaded>(load(request));
+    std::vector<eval::MotionSet> sets;
+    for (std::uint64_t i = 0; i < request.sets; ++i) {
+        const auto seed = request.seed + i;
+        eval::MotionSet set;
+        set.name = fmt::format("{}, seed {}", request.generator, seed);
+        set.key = fmt::format("{}|{}|{}|{}|{}", loaded->file.checksum, seed, loaded->per_class,
+                              fmt::join(loaded->labels, ","), loaded->frames);
+        set.seed = seed;
+        set.open = [loaded, seed] { return std::make_unique<GeneratedMotions>(loaded, seed); };
+        sets.push_back(std::move(set));
+    }
+    return sets;
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,120 @@
+// `actformer score --generator`: motions go to the recogniser without a file between, and are those of `generate`.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "eval/stgcn/weights.hpp"
+#include "ingest/dataset/dataset.hpp"
+#include "tests/support/toy_dataset.hpp"
+
+using namespace actformer;
+using namespace actformer::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* tiny =
+    "model: generator\nframes: 16\nwidth: 16\nheads: 2\ndepth: 1\nlatent: 8\nd_width: 2\nbatch: 6\nepochs: "
+    "1\ntrain_split: s/train\nseed: 4\nthreads: 1\n";
+
+struct ScoreGenerator : testing::Test {
+    void SetUp() override {
+        write_file(dir / "toy.yaml", tiny);
+        const auto trained = run_actformer("train generator -c " + at("toy.yaml") + " --data " +
+                                           toy().string() + " -o " + at("run"));
+        ASSERT_EQ(trained.exit, 0) << trained.output;
+        const auto graph = eval::recogniser_graph(ingest::Dataset(toy()).header().topology.parents);
+        eval::write_weights(dir / "w.h5", eval::random_weights(3, 3, graph, 0.125, 5));
+    }
+    std::string at(const std::string& name) const { return (dir / name).string(); }
+    std::string line(const std::string& more) const {
+        return "XDG_CACHE_HOME=" + at("cache") + " " + program() + " score --recogniser " + at("w.h5") +
+               " --real " + toy().string() + " --window 16 " + more;
+    }
+    CommandResult score(const std::string& more) const { return run_command(line(more)); }
+    nlohmann::json scored(const std::string& more) const {
+        const auto result = score(more + " --json");
+        EXPECT_EQ(result.exit, 0) << result.output;
+        return nlohmann::json::parse(result.output, nullptr, false);
+    }
+    std::string generator(const std::string& more) const {
+        return "--generator " + at("run") + " --per-class 27 --seed 5 " + more;
+    }
+
+    TempDir dir;
+};
+
+}  // namespace
+
+TEST_F(ScoreGenerator, IsTheScoreOfGeneratedFiles) {
+    std::string files;
+    for (unsigned seed = 5; seed < 7; ++seed) {
+        const auto file = at(fmt::format("m{}.h5", seed));
+        ASSERT_EQ(run_actformer(fmt::format("generate --generator {} -o {} --per-class 27 --seed {}",
+                                            at("run"), file, seed))
+                      .exit,
+                  0);
+        files += " " + file;
+    }
+    for (const std::string frames : {"", " --frames 12"}) {
+        const auto here = scored(generator("--repeats 2" + frames));
+        const auto there = scored("--seed 5 --generated" + files + frames);
+        for (const auto* key : {"accuracy", "fid_mean", "fid_whole", "diversity", "multimodality",
+                                "confusion", "per_class", "floor"})
+            EXPECT_EQ(here[key], there[key]) << key << frames;
+        EXPECT_EQ(here["provenance"]["generated"][1]["seed"], 6);
+    }
+    EXPECT_EQ(scored(generator("--repeats 1"))["fid_whole"]["repeats"][0],
+              scored("--generator " + at("run/weights-last.h5") +
+                     " --per-class 27 --seed 5")["fid_whole"]["repeats"][0])
+        << "weights in place of their folder";
+}
+
+TEST_F(ScoreGenerator, MakesTheClassesOfTheSplitOnly) {
+    const auto json = scored(generator("--split s/two"));
+    EXPECT_EQ(json["per_class"][1]["generated"], 27);
+    EXPECT_EQ(json["per_class"][2]["generated"], 0);
+}
+
+TEST_F(ScoreGenerator, GoesOnWhereItWasInterrupted) {
+    fs::create_directories(dir / "s.json/full");  // the scores cannot be written: all is done but that
+    const auto arguments = generator("--repeats 2 -o " + at("s.json"));
+    EXPECT_EQ(score(arguments).exit, 1);
+    std::vector<fs::path> kept;
+    for (const auto& entry : fs::directory_iterator(at("s.json.work"))) kept.push_back(entry.path());
+    ASSERT_EQ(kept.size(), 2U) << "features, and no motions";
+    fs::copy_file(kept[0], kept[1], fs::copy_options::overwrite_existing);  // tells whether they are used
+    fs::remove_all(dir / "s.json");
+    ASSERT_EQ(score(arguments).exit, 0);
+    const auto json = nlohmann::json::parse(read_file(at("s.json")));
+    EXPECT_EQ(json["fid_whole"]["repeats"][0], json["fid_whole"]["repeats"][1]);
+    EXPECT_FALSE(fs::exists(at("s.json.work")));
+    EXPECT_NE(scored(generator("--repeats 2"))["fid_whole"]["repeats"][0], json["fid_whole"]["repeats"][1])
+        << "or both seeds would be the same anyway";
+}
+
+TEST_F(ScoreGenerator, RefusesWhatDoesNotFit) {
+    const auto refused = [&](const std::string& more, const std::vector<std::string>& words) {
+        const auto result = score(more + " -o " + at("refused.json"));
+        EXPECT_EQ(result.exit, 1) << result.output;
+        EXPECT_EQ(lines_in(result.output), 1) << result.output;
+        for (const auto& word : words)
+            EXPECT_NE(result.output.find(word), std::string::npos) << word << ": " << result.output;
+        EXPECT_FALSE(fs::exists(at("refused.json")));
+    };
+    refused("--generator " + at("nowhere"), {"nowhere"});
+    fs::create_directory(dir / "empty");
+    refused("--generator " + at("empty"), {"empty", "weights-"});
+    refused("--generator=" + at("w.h5"), {"w.h5", "generator"});
+    refused(generator("--frames 17"), {"run", "17", "16"});
+    refused(generator("--generate-on nonsense"), {"nonsense"});
+    refused("--generator " + at("run") + " --generated " + at("m.h5"), {"either"});
+    const auto graph = eval::recogniser_graph(ingest::Dataset(toy()).header().topology.parents);
+    eval::write_weights(dir / "w.h5", eval::random_weights(6, 3, graph, 0.125, 5));
+    refused(generator(""), {"w.h5", "channels"});
+    const auto recogniser_for_generator =
+        run_actformer("features --recogniser " + at("run") + " " + toy().string() + " -o " + at("f.h5"));
+    EXPECT_NE(recogniser_for_generator.output.find("generator"), std::string::npos)
+        << recogniser_for_generator.output;
+}
