@@ -114,6 +114,40 @@ TEST(Frechet, DoesNotDependOnRepeatedDimensions) {
     EXPECT_NEAR(frechet_distance(fit(twice(x), 16), fit(twice(y), 16)), plain, 1e-11 * plain);
 }
 
+TEST(Frechet, OfManySamplesIsRightWhateverTheirCondition) {
+    // Independent dimensions of scales 1 to 10^-k, samples on the axes as above: diagonal covariances, so that
+    // d2 = sum (a_i - b_i)^2 2m / (2dm - 1), and the condition of the samples is 10^k: every way of making a triangle is taken.
+    for (const int k : {0, 2, 5, 9, 20}) {
+        constexpr std::size_t d = 8, m = 200;
+        std::vector<double> x, y;
+        double expected = 0, variances = 0;
+        for (std::size_t i = 0; i < d; ++i) {
+            const double a = std::pow(10.0, -k * static_cast<double>(i) / (d - 1)), b = 1.5 * a;
+            for (std::size_t n = 0; n < 2 * m; ++n)
+                for (std::size_t c = 0; c < d; ++c) {
+                    x.push_back(c == i ? (n % 2 ? a : -a) : 0);
+                    y.push_back(c == i ? (n % 2 ? b : -b) : 0);
+                }
+            const double share = 2.0 * m / (2.0 * d * m - 1);
+            expected += share * (a - b) * (a - b);
+            variances += share * (a * a + b * b);
+        }
+        EXPECT_NEAR(frechet_distance(fit(x, d), fit(y, d)), expected, 1e-12 * variances) << k;
+    }
+}
+
+TEST(Frechet, OfManySamplesDoesNotDependOnRepeatedDimensions) {
+    const auto x = random_samples(3000, 8, 4), y = random_samples(2500, 8, 5, 1);
+    const auto twice = [](const std::vector<double>& samples) {
+        std::vector<double> out;
+        for (std::size_t i = 0; i < samples.size(); i += 8)
+            for (std::size_t c = 0; c < 16; ++c) out.push_back(samples[i + c % 8] / std::sqrt(2.0));
+        return out;
+    };
+    const double plain = frechet_distance(fit(x, 8), fit(y, 8));
+    EXPECT_NEAR(frechet_distance(fit(twice(x), 16), fit(twice(y), 16)), plain, 1e-11 * plain);
+}
+
 TEST(Frechet, RefusesWhatHasNoCovariance) {
     EXPECT_THROW(fit(std::vector<double>{1, 2, 3}, 3), Error);
     EXPECT_THROW(fit(std::vector<double>{}, 3), Error);
