@@ -12,6 +12,7 @@ void add_inspect(CLI::App& app);
 void add_export(CLI::App& app);
 void add_render(CLI::App& app);
 void add_features(CLI::App& app);
+void add_classify(CLI::App& app);
 void add_score(CLI::App& app);
 void add_sweep(CLI::App& app);
 void add_report(CLI::App& app);

@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
         add_inspect(app);
         add_export(app);
         add_features(app);
+        add_classify(app);
         add_score(app);
         add_sweep(app);
         add_report(app);

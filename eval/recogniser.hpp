@@ -29,7 +29,8 @@ struct RecogniserInfo {
     std::uint32_t channels = 0;  ///< numbers a node, those of all persons together
     std::uint32_t classes = 0;
     std::uint32_t features = 0;
-    std::vector<int> parents;  ///< (K) of the graph; -1 for the root
+    std::vector<int> parents;              ///< (K) of the graph; -1 for the root
+    std::vector<std::string> class_names;  ///< (classes), or empty where the weights do not tell
 
     std::uint32_t joints() const { return static_cast<std::uint32_t>(parents.size()); }
 };

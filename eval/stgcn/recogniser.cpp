@@ -192,7 +192,7 @@ void StgcnRecogniser::Network::run(const cl::Buffer& motions, std::uint32_t begi
 
 StgcnRecogniser::StgcnRecogniser(kernels::Device& device, const Weights& weights, const kernels::Tiles& tiles)
     : Recogniser(device, {"stgcn", weights.source, weights.representation, weights.channels, weights.classes,
-                          weights.features(), weights.graph.parents}),
+                          weights.features(), weights.graph.parents, weights.class_names}),
       network_(std::make_unique<Network>(device, weights, tiles)) {}
 StgcnRecogniser::~StgcnRecogniser() = default;
 

@@ -102,6 +102,10 @@ Weights read_weights(const std::filesystem::path& file_path) {
     weights.channels = one_number(file, path, "channels", 1, most_channels);
     weights.classes = one_number(file, path, "classes", 1, most_classes);
     weights.representation = ingest::read_representation(file, path).value_or(ingest::Representation::limb);
+    if (file.has_attribute("class_names")) weights.class_names = file.attribute_texts("class_names");
+    if (!weights.class_names.empty() && weights.class_names.size() != weights.classes)
+        throw Error("{}: attribute 'class_names' names {} of {} classes", path, weights.class_names.size(),
+                    weights.classes);
     weights.graph.parents = read_parents(file, path);
     weights.graph.center = one_number(file, path, "center", 0, std::int64_t{weights.joints()} - 1);
     for (std::size_t i = 0; i < stgcn_layers; ++i) weights.widths[i] = read_width(file, path, i);
@@ -120,6 +124,7 @@ void write_weights(const std::filesystem::path& path, const Weights& weights) {
         file.write<float>(name, hdf5::Shape(shape.begin(), shape.end()), weights.at(name));
     file.attribute("kind", std::string("stgcn"));
     file.attribute("representation", weights.representation.name());
+    if (!weights.class_names.empty()) file.attribute("class_names", weights.class_names);
     file.attribute("channels", std::int64_t{weights.channels});
     file.attribute("classes", std::int64_t{weights.classes});
     file.attribute("parents",

@@ -1,5 +1,6 @@
 // The ST-GCN's weights as a file holds them: HDF5, float32 datasets named as in the public state_dict, and attributes
-// `channels`, `classes`, `parents`, `center`, and where they are known `kind` ("stgcn") and `representation`.
+// `channels`, `classes`, `parents`, `center`, and where they are known `kind` ("stgcn"),
+// `representation` and `class_names`.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,7 @@ namespace actformer::eval {
 struct Weights : StgcnShape {
     std::string source;                     ///< the file, for messages
     ingest::Representation representation;  ///< of the motions; limbs where the file has no such attribute
+    std::vector<std::string> class_names;   ///< (classes), or empty where the file does not tell
     std::map<std::string, std::vector<float>> tensors;
 
     const std::vector<float>& at(const std::string& name) const { return tensors.at(name); }

@@ -20,9 +20,11 @@ hdf5::Writer weights_writer(const std::vector<Array>& arrays) {
 }
 
 void save_weights(const std::filesystem::path& path, const StgcnSettings& settings,
-                  const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes) {
+                  const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes,
+                  const std::vector<std::string>& class_names) {
     auto file = weights_writer(arrays);
     file.attribute("kind", std::string("stgcn"));
+    if (!class_names.empty()) file.attribute("class_names", class_names);
     file.attribute("channels", std::int64_t{settings.channels});
     file.attribute("classes", std::int64_t{settings.classes});
     file.attribute("parents",

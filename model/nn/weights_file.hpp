@@ -15,9 +15,10 @@ namespace actformer::model {
 /// A file in memory with a dataset of float32, which readers expect, for every array.
 hdf5::Writer weights_writer(const std::vector<Array>& arrays);
 
-/// Those datasets; attributes channels, classes, parents, center, and `notes` as text (version, configuration, inputs).
+/// Those datasets; attributes kind, channels, classes, class_names, parents, center, and `notes` as text (version, configuration, inputs).
 /// The file appears whole or not at all. Throws Error where it cannot be written.
 void save_weights(const std::filesystem::path& path, const StgcnSettings& settings,
-                  const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes);
+                  const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes,
+                  const std::vector<std::string>& class_names = {});
 
 }  // namespace actformer::model

@@ -219,8 +219,9 @@ void Training::keep(const EpochReport& report) {
     folder_.log(line);
 
     Checkpoint checkpoint{epochs_, {}, net_.arrays()};
-    save_weights(last_weights(), shape_, checkpoint.arrays, notes(epochs_));
-    if (report.best) save_weights(best_weights(), shape_, checkpoint.arrays, notes(epochs_));
+    const auto& names = dataset_.header().classes;
+    save_weights(last_weights(), shape_, checkpoint.arrays, notes(epochs_), names);
+    if (report.best) save_weights(best_weights(), shape_, checkpoint.arrays, notes(epochs_), names);
     checkpoint.state = {
         {"model", "recogniser"},
         {"program", ACTFORMER_VERSION},
