@@ -6,28 +6,32 @@
 namespace actformer::model::cpu {
 namespace {
 
-enum Slot : std::size_t {
-    normal_rows,
-    qkv_rows,
-    seen_rows,
-    score_rows,
-    seen_grad,
-    score_grad,
-    qkv_grad,
-    normal_grad,
-    value_grad,
-    outer_panel,
-    qkv_bias,
-    proj_bias,
-    short_scores,
-    short_grads,
-    sums_norm_weight,
-    sums_norm_bias,
-    sums_qkv,
-    sums_qkv_bias,
-    sums_proj,
-    sums_proj_bias
-};
+/// What scratch memory is for.
+struct NormalRows {};
+struct QkvRows {};
+struct SeenRows {};
+struct ScoreRows {};
+struct SeenGrad {};
+struct ScoreGrad {};
+struct QkvGrad {};
+struct NormalGrad {};
+struct ValueGrad {};
+struct OuterPanel {};
+struct QkvBias {};
+struct ProjBias {};
+struct ShortScores {};
+struct ShortGrads {};
+struct SumsNormWeight {};
+struct SumsNormBias {};
+struct SumsQkv {};
+struct SumsQkvBias {};
+struct SumsProj {};
+struct SumsProjBias {};
+struct QkvWeight {};
+struct ProjWeight {};
+struct PackedQkv {};
+struct PackedGrad {};
+struct PackedValues {};
 
 /// Sequences of at most so many tokens are worth no packing.
 constexpr std::int64_t short_length = 8;
@@ -55,9 +59,9 @@ class LongAttention {
           scale_(1 / std::sqrt(static_cast<T>(head_))) {}
 
     void forward(Sequence<const T> qkv, Sequence<T> seen) const {
-        T* scores = scratch<T>(score_rows, length_ * room_);
-        T* panel = scratch<T>(outer_panel, length_ * panel_columns<T>);
-        pack_all(packed_scratch<T>(2), qkv);
+        T* scores = scratch<T>(ScoreRows{}, length_ * room_);
+        T* panel = scratch<T>(OuterPanel{}, length_ * panel_columns<T>);
+        pack_all(packed_scratch<T>(PackedQkv{}), qkv);
         for (std::int64_t h = 0; h < heads_; ++h) {
             const auto at = h * head_;
             weigh(qkv, h, scores);
@@ -67,18 +71,18 @@ class LongAttention {
 
     /// `grad` is of what was seen; `to` takes the gradients of queries, keys and values.
     void backward(Sequence<const T> qkv, Sequence<const T> grad, Sequence<T> to) const {
-        T* scores = scratch<T>(score_rows, length_ * room_);
-        T* slopes = scratch<T>(score_grad, length_ * room_);
-        T* panel = scratch<T>(outer_panel, length_ * panel_columns<T>);
-        pack_all(packed_scratch<T>(2), qkv);
-        pack_all(packed_scratch<T>(3), grad);
+        T* scores = scratch<T>(ScoreRows{}, length_ * room_);
+        T* slopes = scratch<T>(ScoreGrad{}, length_ * room_);
+        T* panel = scratch<T>(OuterPanel{}, length_ * panel_columns<T>);
+        pack_all(packed_scratch<T>(PackedQkv{}), qkv);
+        pack_all(packed_scratch<T>(PackedGrad{}), grad);
         for (std::int64_t h = 0; h < heads_; ++h) {
             const auto at = h * head_;
             const Sequence<const T> queries{qkv.first + at, qkv.step}, keys{queries.first + width_, qkv.step},
                 values{keys.first + width_, qkv.step};
             weigh(qkv, h, scores);
             over_queries(scores, {grad.first + at, grad.step}, {to.first + 2 * width_ + at, to.step});
-            times_all(packed_scratch<T>(3), values, h, slopes);
+            times_all(packed_scratch<T>(PackedGrad{}), values, h, slopes);
             through_softmax(scores, slopes);
             over_keys(slopes, keys, panel, {to.first + at, to.step});
             over_queries(slopes, queries, {to.first + width_ + at, to.step});
@@ -105,7 +109,7 @@ class LongAttention {
 
     /// The weights of every key (length, room) for the queries.
     void weigh(Sequence<const T> qkv, std::int64_t h, T* scores) const {
-        times_all(packed_scratch<T>(2), {qkv.first + width_ + h * head_, qkv.step}, h, scores);
+        times_all(packed_scratch<T>(PackedQkv{}), {qkv.first + width_ + h * head_, qkv.step}, h, scores);
         for (std::int64_t i = 0; i < room_; i += lanes<T>) {
             T* column = scores + i;
             Lanes<T> most = load(column), sum = {};
@@ -140,7 +144,7 @@ class LongAttention {
     /// For every query the sum over keys of matrix (keys, queries) times the keys' tokens.
     void over_keys(const T* matrix, Sequence<const T> tokens, T* panel, Sequence<T> to) const {
         const auto pitch = panel_padded<T>(head_);
-        T* sums = zeroed_scratch<T>(value_grad, length_ * pitch);
+        T* sums = zeroed_scratch<T>(ValueGrad{}, length_ * pitch);
         add_outer_products<T>(
             matrix, room_, length_, [=](std::int64_t r) { return tokens.at(r); }, head_, length_, panel, sums,
             pitch);
@@ -149,7 +153,7 @@ class LongAttention {
 
     /// For every key the sum over queries of matrix (keys, queries) times the queries' tokens.
     void over_queries(const T* matrix, Sequence<const T> tokens, Sequence<T> to) const {
-        auto& packed = packed_scratch<T>(4);
+        auto& packed = packed_scratch<T>(PackedValues{});
         packed.resize(length_, head_);
         for (std::int64_t p = 0; p < packed.panels(); ++p) packed.fill(p, tokens.first, tokens.step, head_);
         product<T>(EvenRows<T>{matrix, room_}, length_, packed, head_,
@@ -190,7 +194,7 @@ class ShortAttention {
 
     void backward(Sequence<const T> qkv, Sequence<const T> grad, Sequence<T> to) const {
         const T* scores = weigh(qkv);
-        T* slopes = scratch<T>(short_grads, length_ * length_ * room_);
+        T* slopes = scratch<T>(ShortGrads{}, length_ * length_ * room_);
         for (std::int64_t i = 0; i < length_; ++i) std::fill_n(to.at(i), 3 * width_, T(0));
         for (std::int64_t i = 0; i < length_; ++i)
             for (std::int64_t j = 0; j < length_; ++j)
@@ -217,7 +221,7 @@ class ShortAttention {
     }
 
     const T* weigh(Sequence<const T> qkv) const {
-        T* scores = scratch<T>(short_scores, length_ * length_ * room_);
+        T* scores = scratch<T>(ShortScores{}, length_ * length_ * room_);
         for (std::int64_t i = 0; i < length_; ++i) {
             for (std::int64_t j = 0; j < length_; ++j)
                 for (std::int64_t h = 0; h < heads_; ++h)
@@ -305,17 +309,17 @@ void attention_forward(const AttentionShape& shape, const T* x, const AttentionW
                        const AttentionKept<T>& kept, T* out, int threads) {
     const auto width = shape.tokens.width, rows = shape.tokens.sample_rows();
     const auto pitch = padded<T>(width), qkv_pitch = shape.qkv_pitch(), seen_pitch = shape.seen_pitch();
-    auto &qkv_weight = packed_scratch<T>(0), &proj_weight = packed_scratch<T>(1);
+    auto &qkv_weight = packed_scratch<T>(QkvWeight{}), &proj_weight = packed_scratch<T>(ProjWeight{});
     pack_forward(qkv_weight, weights.qkv.weight, 3 * width, width, threads);
     pack_forward(proj_weight, weights.proj.weight, width, width, threads);
-    const T *bias_qkv = padded_copy(qkv_bias, weights.qkv.bias, 3 * width),
-            *bias_proj = padded_copy(proj_bias, weights.proj.bias, width);
+    const T *bias_qkv = padded_copy(QkvBias{}, weights.qkv.bias, 3 * width),
+            *bias_proj = padded_copy(ProjBias{}, weights.proj.bias, width);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t n = 0; n < shape.tokens.samples; ++n) {
         const T* from = x + n * rows * width;
-        T* normal = scratch<T>(normal_rows, rows * pitch);
-        T* qkv = kept.qkv ? kept.qkv + n * rows * qkv_pitch : scratch<T>(qkv_rows, rows * qkv_pitch);
-        T* seen = kept.seen ? kept.seen + n * rows * seen_pitch : scratch<T>(seen_rows, rows * seen_pitch);
+        T* normal = scratch<T>(NormalRows{}, rows * pitch);
+        T* qkv = kept.qkv ? kept.qkv + n * rows * qkv_pitch : scratch<T>(QkvRows{}, rows * qkv_pitch);
+        T* seen = kept.seen ? kept.seen + n * rows * seen_pitch : scratch<T>(SeenRows{}, rows * seen_pitch);
         for (std::int64_t r = 0; r < rows; ++r)
             normalise_row(from + r * width, width, weights.norm.weight, weights.norm.bias,
                           normal + r * pitch);
@@ -336,7 +340,7 @@ void attention_backward(const AttentionShape& shape, const T* x, const Attention
                         int threads) {
     const auto width = shape.tokens.width, rows = shape.tokens.sample_rows();
     const auto pitch = padded<T>(width), qkv_pitch = shape.qkv_pitch(), seen_pitch = shape.seen_pitch();
-    auto &qkv_weight = packed_scratch<T>(0), &proj_weight = packed_scratch<T>(1);
+    auto &qkv_weight = packed_scratch<T>(QkvWeight{}), &proj_weight = packed_scratch<T>(ProjWeight{});
     pack_backward(qkv_weight, weights.qkv.weight, 3 * width, width, threads);
     pack_backward(proj_weight, weights.proj.weight, width, width, threads);
     ThreadSums<T> norm_weight(threads, 1, width), norm_bias(threads, 1, width),
@@ -344,14 +348,14 @@ void attention_backward(const AttentionShape& shape, const T* x, const Attention
         proj_sums(threads, width, width), proj_bias_sums(threads, 1, width);
 #pragma omp parallel num_threads(threads)
     {
-        T *own_norm = norm_weight.own(sums_norm_weight), *own_norm_bias = norm_bias.own(sums_norm_bias),
-          *own_qkv = qkv_sums.own(sums_qkv), *own_qkv_bias = qkv_bias_sums.own(sums_qkv_bias),
-          *own_proj = proj_sums.own(sums_proj), *own_proj_bias = proj_bias_sums.own(sums_proj_bias);
-        T* normal = scratch<T>(normal_rows, rows * pitch);
-        T* to_seen = scratch<T>(seen_grad, rows * pitch);
-        T* to_qkv = scratch<T>(qkv_grad, rows * qkv_pitch);
-        T* back = scratch<T>(normal_grad, rows * pitch);
-        T* panel = scratch<T>(outer_panel, rows * panel_columns<T>);
+        T *own_norm = norm_weight.own(SumsNormWeight{}), *own_norm_bias = norm_bias.own(SumsNormBias{}),
+          *own_qkv = qkv_sums.own(SumsQkv{}), *own_qkv_bias = qkv_bias_sums.own(SumsQkvBias{}),
+          *own_proj = proj_sums.own(SumsProj{}), *own_proj_bias = proj_bias_sums.own(SumsProjBias{});
+        T* normal = scratch<T>(NormalRows{}, rows * pitch);
+        T* to_seen = scratch<T>(SeenGrad{}, rows * pitch);
+        T* to_qkv = scratch<T>(QkvGrad{}, rows * qkv_pitch);
+        T* back = scratch<T>(NormalGrad{}, rows * pitch);
+        T* panel = scratch<T>(OuterPanel{}, rows * panel_columns<T>);
 #pragma omp for schedule(static)
         for (std::int64_t n = 0; n < shape.tokens.samples; ++n) {
             const auto first = n * rows * width;

@@ -5,7 +5,13 @@
 namespace actformer::model::cpu {
 namespace {
 
-enum Slot : std::size_t { bias_row, frame_grad, outer_panel, sums_weight, sums_bias };
+/// What scratch memory is for.
+struct BiasRow {};
+struct FrameGrad {};
+struct OuterPanel {};
+struct SumsWeight {};
+struct SumsBias {};
+struct LinearWeightPanels {};
 
 /// A latent's row of tokens, for the persons that share it.
 template <typename T>
@@ -37,9 +43,9 @@ template <typename T>
 void embed_forward(const EmbeddingShape& shape, const T* latent, const LinearWeight<T>& weight,
                    const T* classes, const T* positions, T* tokens, int threads) {
     const auto width = shape.width, sharing = shape.persons / shape.streams;
-    auto& packed = packed_scratch<T>(0);
+    auto& packed = packed_scratch<T>(LinearWeightPanels{});
     pack_forward(packed, weight.weight, width, shape.channels, threads);
-    const T* bias = padded_copy(bias_row, weight.bias, width);
+    const T* bias = padded_copy(BiasRow{}, weight.bias, width);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t n = 0; n < shape.samples; ++n) {
         T* to = tokens + n * shape.persons * shape.tokens() * width;
@@ -62,9 +68,9 @@ void embed_backward(const EmbeddingShape& shape, const T* latent, const T* grad,
     ThreadSums<T> weight(threads, width, shape.channels), bias(threads, 1, width);
 #pragma omp parallel num_threads(threads)
     {
-        T *own_weight = weight.own(sums_weight), *own_bias = bias.own(sums_bias);
-        T* frames = scratch<T>(frame_grad, shape.frames * width);
-        T* panel = scratch<T>(outer_panel, shape.frames * panel_columns<T>);
+        T *own_weight = weight.own(SumsWeight{}), *own_bias = bias.own(SumsBias{});
+        T* frames = scratch<T>(FrameGrad{}, shape.frames * width);
+        T* panel = scratch<T>(OuterPanel{}, shape.frames * panel_columns<T>);
 #pragma omp for schedule(static)
         for (std::int64_t n = 0; n < shape.samples; ++n) {
             const T* sample = grad + n * persons * tokens * width;

@@ -11,29 +11,28 @@
 
 namespace actformer::model::cpu {
 
-/// Memory of the calling thread under a number of the caller's choice, good until the thread asks for the same number
-/// again. What was never written is 0.
-template <typename T>
-T* scratch(std::size_t slot, std::ptrdiff_t count) {
-    thread_local std::vector<std::vector<T>> slots;
-    if (slots.size() <= slot) slots.resize(slot + 1);
-    if (slots[slot].size() < static_cast<std::size_t>(count))
-        slots[slot].resize(static_cast<std::size_t>(count));
-    return slots[slot].data();
+/// Memory of the calling thread for one purpose, a type of the caller's own, kept from call to call. Good until the thread
+/// asks for the same purpose again. What was never written is 0.
+template <typename T, typename Purpose>
+T* scratch(Purpose /*purpose*/, std::ptrdiff_t count) {
+    thread_local std::vector<T> memory;
+    if (memory.size() < static_cast<std::size_t>(count)) memory.resize(static_cast<std::size_t>(count));
+    return memory.data();
 }
 
 /// The same of zeros.
-template <typename T>
-T* zeroed_scratch(std::size_t slot, std::ptrdiff_t count) {
-    T* memory = scratch<T>(slot, count);
+template <typename T, typename Purpose>
+T* zeroed_scratch(Purpose purpose, std::ptrdiff_t count) {
+    T* memory = scratch<T>(purpose, count);
     std::fill_n(memory, count, T(0));
     return memory;
 }
 
-template <typename T>
-PackedMatrix<T>& packed_scratch(std::size_t slot) {
-    thread_local std::vector<PackedMatrix<T>> slots(8);
-    return slots.at(slot);
+/// The same of a packed matrix.
+template <typename T, typename Purpose>
+PackedMatrix<T>& packed_scratch(Purpose /*purpose*/) {
+    thread_local PackedMatrix<T> matrix;
+    return matrix;
 }
 
 /// Packs a weight (out, in) so that rows of inputs times it give outputs.
@@ -53,9 +52,9 @@ void pack_backward(PackedMatrix<T>& to, const T* weight, std::int64_t out, std::
 }
 
 /// A copy of `count` numbers with zeros behind, for loads of whole panels.
-template <typename T>
-T* padded_copy(std::size_t slot, const T* from, std::int64_t count) {
-    T* to = zeroed_scratch<T>(slot, panel_padded<T>(count));
+template <typename T, typename Purpose>
+T* padded_copy(Purpose purpose, const T* from, std::int64_t count) {
+    T* to = zeroed_scratch<T>(purpose, panel_padded<T>(count));
     std::copy_n(from, count, to);
     return to;
 }
@@ -73,9 +72,10 @@ class ThreadSums {
     std::int64_t pitch() const { return pitch_; }
 
     /// Called by every thread of a team before it adds.
-    T* own(std::size_t slot) {
+    template <typename Purpose>
+    T* own(Purpose purpose) {
         return sums_[static_cast<std::size_t>(omp_get_thread_num())] =
-                   zeroed_scratch<T>(slot, rows_ * pitch_);
+                   zeroed_scratch<T>(purpose, rows_ * pitch_);
     }
 
     /// Called by every thread of a team, behind a barrier.

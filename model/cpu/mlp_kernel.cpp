@@ -6,22 +6,22 @@
 namespace actformer::model::cpu {
 namespace {
 
-enum Slot : std::size_t {
-    normal_rows,
-    up_rows,
-    active_rows,
-    hidden_grad,
-    normal_grad,
-    outer_panel,
-    up_bias,
-    down_bias,
-    sums_norm_weight,
-    sums_norm_bias,
-    sums_up,
-    sums_up_bias,
-    sums_down,
-    sums_down_bias
-};
+/// What scratch memory is for.
+struct NormalRows {};
+struct ActiveRows {};
+struct HiddenGrad {};
+struct NormalGrad {};
+struct OuterPanel {};
+struct UpBias {};
+struct DownBias {};
+struct SumsNormWeight {};
+struct SumsNormBias {};
+struct SumsUp {};
+struct SumsUpBias {};
+struct SumsDown {};
+struct SumsDownBias {};
+struct UpWeight {};
+struct DownWeight {};
 
 template <typename T>
 void activate(const T* up, std::int64_t count, T* to) {
@@ -49,16 +49,16 @@ void mlp_forward(const MlpShape& shape, const T* x, const MlpWeights<T>& weights
                  int threads) {
     const auto width = shape.tokens.width, hidden = shape.hidden, rows = shape.tokens.sample_rows();
     const auto pitch = padded<T>(width), hidden_pitch = shape.hidden_pitch();
-    auto &up = packed_scratch<T>(0), &down = packed_scratch<T>(1);
+    auto &up = packed_scratch<T>(UpWeight{}), &down = packed_scratch<T>(DownWeight{});
     pack_forward(up, weights.up.weight, hidden, width, threads);
     pack_forward(down, weights.down.weight, width, hidden, threads);
-    const T *bias_up = padded_copy(up_bias, weights.up.bias, hidden),
-            *bias_down = padded_copy(down_bias, weights.down.bias, width);
+    const T *bias_up = padded_copy(UpBias{}, weights.up.bias, hidden),
+            *bias_down = padded_copy(DownBias{}, weights.down.bias, width);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t n = 0; n < shape.tokens.samples; ++n) {
         const T* from = x + n * rows * width;
-        T* normal = scratch<T>(normal_rows, rows * pitch);
-        T* active = scratch<T>(active_rows, rows * hidden_pitch);
+        T* normal = scratch<T>(NormalRows{}, rows * pitch);
+        T* active = scratch<T>(ActiveRows{}, rows * hidden_pitch);
         T* mapped = kept ? kept + n * rows * hidden_pitch : active;
         for (std::int64_t r = 0; r < rows; ++r)
             normalise_row(from + r * width, width, weights.norm.weight, weights.norm.bias,
@@ -76,7 +76,7 @@ void mlp_backward(const MlpShape& shape, const T* x, const MlpWeights<T>& weight
                   const T* grad, const MlpGradients<T>& to, int threads) {
     const auto width = shape.tokens.width, hidden = shape.hidden, rows = shape.tokens.sample_rows();
     const auto pitch = padded<T>(width), hidden_pitch = shape.hidden_pitch();
-    auto &up = packed_scratch<T>(0), &down = packed_scratch<T>(1);
+    auto &up = packed_scratch<T>(UpWeight{}), &down = packed_scratch<T>(DownWeight{});
     pack_backward(up, weights.up.weight, hidden, width, threads);
     pack_backward(down, weights.down.weight, width, hidden, threads);
     ThreadSums<T> norm_weight(threads, 1, width), norm_bias(threads, 1, width),
@@ -84,14 +84,14 @@ void mlp_backward(const MlpShape& shape, const T* x, const MlpWeights<T>& weight
         down_sums(threads, 1, width);
 #pragma omp parallel num_threads(threads)
     {
-        T *own_norm = norm_weight.own(sums_norm_weight), *own_norm_bias = norm_bias.own(sums_norm_bias),
-          *own_up = up_weight.own(sums_up), *own_up_bias = up_sums.own(sums_up_bias),
-          *own_down = down_weight.own(sums_down), *own_down_bias = down_sums.own(sums_down_bias);
-        T* normal = scratch<T>(normal_rows, rows * pitch);
-        T* active = scratch<T>(active_rows, rows * hidden_pitch);
-        T* inner = scratch<T>(hidden_grad, rows * hidden_pitch);
-        T* back = scratch<T>(normal_grad, rows * pitch);
-        T* panel = scratch<T>(outer_panel, rows * panel_columns<T>);
+        T *own_norm = norm_weight.own(SumsNormWeight{}), *own_norm_bias = norm_bias.own(SumsNormBias{}),
+          *own_up = up_weight.own(SumsUp{}), *own_up_bias = up_sums.own(SumsUpBias{}),
+          *own_down = down_weight.own(SumsDown{}), *own_down_bias = down_sums.own(SumsDownBias{});
+        T* normal = scratch<T>(NormalRows{}, rows * pitch);
+        T* active = scratch<T>(ActiveRows{}, rows * hidden_pitch);
+        T* inner = scratch<T>(HiddenGrad{}, rows * hidden_pitch);
+        T* back = scratch<T>(NormalGrad{}, rows * pitch);
+        T* panel = scratch<T>(OuterPanel{}, rows * panel_columns<T>);
 #pragma omp for schedule(static)
         for (std::int64_t n = 0; n < shape.tokens.samples; ++n) {
             const auto first = n * rows * width;

@@ -5,7 +5,13 @@
 namespace actformer::model::cpu {
 namespace {
 
-enum Slot : std::size_t { masked_grad, group_grad, outer_panel, window_grad, sums_weight, sums_bias };
+/// What scratch memory is for.
+struct MaskedGrad {};
+struct GroupGrad {};
+struct OuterPanel {};
+struct WindowGrad {};
+struct SumsWeight {};
+struct SumsBias {};
 
 /// About what a core's second-level cache holds beside the weights under way.
 constexpr std::int64_t cache_bytes = 1 << 20;
@@ -169,7 +175,7 @@ class Backward {
 
     /// `to_x` may be null.
     void chunk(const T* x, const T* y, const T* grad, std::int64_t samples, T* to_x) {
-        T* masked = scratch<T>(masked_grad, samples * shape_.sample_out());
+        T* masked = scratch<T>(MaskedGrad{}, samples * shape_.sample_out());
         mask(y, grad, samples, masked);
         if (to_x) std::fill_n(to_x, samples * shape_.sample_in(), T(0));
         for (std::int64_t v = 0; v < shape_.in_nodes; ++v) {
@@ -178,7 +184,7 @@ class Backward {
             if (first == end) continue;
             list_rows(shape_, x, samples, v, rows_);
             const auto pitch = (end - first) * shape_.out;
-            T* to_groups = scratch<T>(group_grad, static_cast<std::int64_t>(rows_.size()) * pitch);
+            T* to_groups = scratch<T>(GroupGrad{}, static_cast<std::int64_t>(rows_.size()) * pitch);
             for (auto g = first; g < end; ++g)
                 gather(sums_.groups[static_cast<std::size_t>(g)], masked, samples, pitch,
                        to_groups + (g - first) * shape_.out);
@@ -232,7 +238,7 @@ class Backward {
     /// All groups of a node at once: they see the same windows.
     void add_weights(std::int64_t first_group, const T* to_groups, std::int64_t pitch) {
         const auto columns = panel_padded<T>(shape_.window()), rows = static_cast<std::int64_t>(rows_.size());
-        T* panel = scratch<T>(outer_panel, rows * panel_columns<T>);
+        T* panel = scratch<T>(OuterPanel{}, rows * panel_columns<T>);
         add_outer_products<T>(
             to_groups, pitch, pitch, [this](std::int64_t r) { return rows_[static_cast<std::size_t>(r)]; },
             shape_.window(), rows, panel, weight_sums_ + first_group * shape_.out * columns, columns);
@@ -243,7 +249,7 @@ class Backward {
                     T* to_x) {
         const auto window = shape_.window(), wide = panel_padded<T>(window),
                    rows = static_cast<std::int64_t>(rows_.size());
-        T* windows = scratch<T>(window_grad, rows * wide);
+        T* windows = scratch<T>(WindowGrad{}, rows * wide);
         product<T>(EvenRows<T>{to_groups, pitch}, rows, (*packed_)[static_cast<std::size_t>(node)], window,
                    StorePlain<T>{windows, wide});
         for (std::int64_t n = 0; n < samples; ++n)
@@ -285,13 +291,16 @@ void write_weights(const NodeShape& shape, const NodeSums& sums, const std::vect
 
 }  // namespace
 
-NodeSums::NodeSums(const HopMatrix& matrix) {
-    for (std::int64_t input = 0; input < matrix.inputs; ++input) {
+NodeSums::NodeSums(std::int64_t hops, std::int64_t outputs, std::int64_t inputs,
+                   std::span<const float> strengths) {
+    for (std::int64_t input = 0; input < inputs; ++input) {
         first_of_node.push_back(static_cast<std::int64_t>(groups.size()));
-        for (std::int64_t hop = 0; hop < matrix.hops; ++hop) {
+        for (std::int64_t hop = 0; hop < hops; ++hop) {
             Group group{hop, input, {}};
-            for (std::int64_t output = 0; output < matrix.outputs; ++output)
-                if (const float strength = matrix.at(hop, output, input); strength != 0)
+            for (std::int64_t output = 0; output < outputs; ++output)
+                if (const float strength =
+                        strengths[static_cast<std::size_t>((hop * outputs + output) * inputs + input)];
+                    strength != 0)
                     group.targets.push_back({output, strength});
             if (!group.targets.empty()) groups.push_back(std::move(group));
         }
@@ -347,8 +356,8 @@ void node_backward(const NodeShape& shape, const NodeSums& sums, const T* x, con
         const auto thread = static_cast<std::size_t>(omp_get_thread_num());
         if (to.weight)
             weight_sums[thread] =
-                zeroed_scratch<T>(sums_weight, groups * shape.out * panel_padded<T>(shape.window()));
-        if (to.bias) bias_sums[thread] = zeroed_scratch<T>(sums_bias, shape.out_nodes * shape.out);
+                zeroed_scratch<T>(SumsWeight{}, groups * shape.out * panel_padded<T>(shape.window()));
+        if (to.bias) bias_sums[thread] = zeroed_scratch<T>(SumsBias{}, shape.out_nodes * shape.out);
         Backward<T> backward(shape, sums, packed, leak, weight_sums[thread], bias_sums[thread]);
 #pragma omp for schedule(static)
         for (std::int64_t from = 0; from < shape.samples; from += chunk)

@@ -6,9 +6,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
-
-#include "model/generators/actformer/coarsening.hpp"
 
 namespace actformer::model::cpu {
 
@@ -25,14 +24,37 @@ struct NodeSums {
     std::vector<Group> groups;                ///< by input node
     std::vector<std::int64_t> first_of_node;  ///< group, for every input node and behind the last
 
-    explicit NodeSums(const HopMatrix& matrix);
+    /// `strengths` (hops, outputs, inputs) row-major: what every output node takes of every input node.
+    NodeSums(std::int64_t hops, std::int64_t outputs, std::int64_t inputs, std::span<const float> strengths);
 };
 
+/// One layer of graph convolutions and the size of what it is given.
 struct NodeShape {
-    std::int64_t samples, in_nodes, out_nodes, frames, in, out, taps, stride, padding;
-    std::int64_t out_padding;  ///< zeros on either side of the outputs' frames
-    /// Where a group's weights (out, taps * in) are: the first of (hop, node), and from one row to the next.
-    std::int64_t node_step, hop_step, row_step;
+    std::int64_t samples = 0, frames = 0;  ///< frames without the zeros on either side
+    std::int64_t in_nodes = 0, out_nodes = 0;
+    std::int64_t in = 0, out = 0;                    ///< channels
+    std::int64_t taps = 1, stride = 1, padding = 0;  ///< of every temporal convolution
+    std::int64_t out_padding = 0;                    ///< zeros on either side of the outputs' frames
+
+    /// Where a group's weights (out, taps * in) are: from one node, hop and row of outputs to the next.
+    std::int64_t node_step = 0, hop_step = 0, row_step = 0;
+
+    /// The same layer with weights (in_nodes, hops, out, taps, in): a convolution of its own for every node.
+    NodeShape with_weights_by_node(std::int64_t hops) const {
+        auto shape = *this;
+        shape.row_step = window();
+        shape.hop_step = out * window();
+        shape.node_step = hops * shape.hop_step;
+        return shape;
+    }
+    /// The same layer with weights (out, in_nodes, taps, in): one convolution over all nodes, of one hop.
+    NodeShape with_weights_by_output() const {
+        auto shape = *this;
+        shape.node_step = window();
+        shape.hop_step = 0;
+        shape.row_step = in_nodes * window();
+        return shape;
+    }
 
     std::int64_t padded_frames() const { return frames + 2 * padding; }
     std::int64_t out_frames() const { return (padded_frames() - taps) / stride + 1; }

@@ -10,22 +10,22 @@ namespace {
 
 constexpr std::int64_t axes = 3;
 
-enum Slot : std::size_t {
-    turned_weight,
-    turned_bias,
-    bias_row,
-    normal_rows,
-    raw_rows,
-    raw_grad,
-    normal_grad,
-    outer_panel,
-    sums_norm_weight,
-    sums_norm_bias,
-    sums_head,
-    sums_head_bias,
-    head_grad,
-    head_bias_grad
-};
+/// What scratch memory is for.
+struct TurnedWeight {};
+struct TurnedBias {};
+struct BiasRow {};
+struct NormalRows {};
+struct RawRows {};
+struct RawGrad {};
+struct NormalGrad {};
+struct OuterPanel {};
+struct SumsNormWeight {};
+struct SumsNormBias {};
+struct SumsHead {};
+struct SumsHeadBias {};
+struct HeadGrad {};
+struct HeadBiasGrad {};
+struct HeadWeight {};
 
 constexpr double length_epsilon = 1e-4;
 
@@ -104,18 +104,18 @@ void pose_forward(const PoseShape& shape, const T* x, const PoseWeights<T>& weig
                   int threads) {
     const auto width = shape.tokens.width, frames = shape.frames(), joints = shape.joints,
                out = axes * joints, pitch = padded<T>(width), raw_pitch = shape.raw_pitch();
-    T* turned = scratch<T>(turned_weight, out * width);
-    T* turned_biases = scratch<T>(turned_bias, out);
+    T* turned = scratch<T>(TurnedWeight{}, out * width);
+    T* turned_biases = scratch<T>(TurnedBias{}, out);
     turn(weights.head.weight, joints, width, false, turned);
     turn(weights.head.bias, joints, 1, false, turned_biases);
-    auto& packed = packed_scratch<T>(0);
+    auto& packed = packed_scratch<T>(HeadWeight{});
     pack_forward(packed, turned, out, width, threads);
-    const T* bias = padded_copy(bias_row, turned_biases, out);
+    const T* bias = padded_copy(BiasRow{}, turned_biases, out);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t sequence = 0; sequence < shape.tokens.samples * shape.tokens.persons; ++sequence) {
         const T* from = x + (sequence * shape.tokens.tokens + 1) * width;  // behind the class
-        T* normal = scratch<T>(normal_rows, frames * pitch);
-        T* raw = kept ? kept + sequence * frames * raw_pitch : scratch<T>(raw_rows, frames * raw_pitch);
+        T* normal = scratch<T>(NormalRows{}, frames * pitch);
+        T* raw = kept ? kept + sequence * frames * raw_pitch : scratch<T>(RawRows{}, frames * raw_pitch);
         for (std::int64_t t = 0; t < frames; ++t)
             normalise_row(from + t * width, width, weights.norm.weight, weights.norm.bias,
                           normal + t * pitch);
@@ -131,21 +131,21 @@ void pose_backward(const PoseShape& shape, const T* x, const PoseWeights<T>& wei
                    const T* grad, const PoseGradients<T>& to, int threads) {
     const auto width = shape.tokens.width, frames = shape.frames(), joints = shape.joints,
                out = axes * joints, pitch = padded<T>(width), raw_pitch = shape.raw_pitch();
-    T* turned = scratch<T>(turned_weight, out * width);
+    T* turned = scratch<T>(TurnedWeight{}, out * width);
     turn(weights.head.weight, joints, width, false, turned);
-    auto& packed = packed_scratch<T>(0);
+    auto& packed = packed_scratch<T>(HeadWeight{});
     pack_backward(packed, turned, out, width, threads);
-    T *to_head = scratch<T>(head_grad, out * width), *to_head_bias = scratch<T>(head_bias_grad, out);
+    T *to_head = scratch<T>(HeadGrad{}, out * width), *to_head_bias = scratch<T>(HeadBiasGrad{}, out);
     ThreadSums<T> norm_weight(threads, 1, width), norm_bias(threads, 1, width), head(threads, out, width),
         head_bias(threads, 1, out);
 #pragma omp parallel num_threads(threads)
     {
-        T *own_norm = norm_weight.own(sums_norm_weight), *own_norm_bias = norm_bias.own(sums_norm_bias),
-          *own_head = head.own(sums_head), *own_bias = head_bias.own(sums_head_bias);
-        T* normal = scratch<T>(normal_rows, frames * pitch);
-        T* to_raw = scratch<T>(raw_grad, frames * raw_pitch);
-        T* back = scratch<T>(normal_grad, frames * pitch);
-        T* panel = scratch<T>(outer_panel, frames * panel_columns<T>);
+        T *own_norm = norm_weight.own(SumsNormWeight{}), *own_norm_bias = norm_bias.own(SumsNormBias{}),
+          *own_head = head.own(SumsHead{}), *own_bias = head_bias.own(SumsHeadBias{});
+        T* normal = scratch<T>(NormalRows{}, frames * pitch);
+        T* to_raw = scratch<T>(RawGrad{}, frames * raw_pitch);
+        T* back = scratch<T>(NormalGrad{}, frames * pitch);
+        T* panel = scratch<T>(OuterPanel{}, frames * panel_columns<T>);
 #pragma omp for schedule(static)
         for (std::int64_t sequence = 0; sequence < shape.tokens.samples * shape.tokens.persons; ++sequence) {
             const auto first = (sequence * shape.tokens.tokens + 1) * width;

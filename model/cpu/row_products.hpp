@@ -3,39 +3,17 @@
 // A row is one joint in one frame. Rows lie `frame` numbers apart from one frame to the next and `row` apart from one joint to
 // the next, so that a temporal convolution's tap, or every other frame, is the same product from another first row.
 //
-// Accumulators live in registers: tiles of rows x column vectors that keep both multiplier ports busy. Right-hand
-// matrices are packed in panels of up to 4 vectors of columns, cut in depth: a panel stays in the first-level cache while all
+// Right-hand matrices are packed in panels of up to 4 vectors of columns, cut in depth: a panel stays in the first-level cache while all
 // rows of a sample pass over it, and float32's rounding grows with the square root of 32, a cut's depth, not of all that is
 // summed. For the same reason a tile sums from zero and joins what is there once, at its end.
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <vector>
 
-namespace actformer::model {
+#include "model/cpu/product_tiles.hpp"
 
-#if defined(__AVX512F__)
-constexpr std::size_t vector_bytes = 64;
-constexpr int tile_registers = 24;
-#else
-constexpr std::size_t vector_bytes = 32;
-constexpr int tile_registers = 12;
-#endif
-
-template <typename T>
-struct Vector {
-    typedef T type __attribute__((vector_size(vector_bytes), aligned(alignof(T)), may_alias));
-};
-
-/// Numbers of T in a vector: channel counts are padded to a multiple of it.
-template <typename T>
-constexpr std::ptrdiff_t lanes = vector_bytes / sizeof(T);
-
-template <typename T>
-constexpr std::ptrdiff_t padded(std::ptrdiff_t n) {
-    return (n + lanes<T> - 1) / lanes<T> * lanes<T>;
-}
+namespace actformer::model::cpu {
 
 /// Rows in memory.
 template <typename T>
@@ -74,27 +52,22 @@ class Panels {
 
 namespace detail {
 
+/// Rows anywhere in memory.
+template <typename T, int R>
+struct RowPointers {
+    const T* row[R];
+    T at(int r, std::ptrdiff_t d) const { return row[r][d]; }
+};
+
 /// c[r] += a[r] * b for `R` rows, W vectors wide.
 template <typename T, int R, int W>
-inline void product_tile(const T* const* a, const T* b, std::ptrdiff_t depth, T* const* c) {
-    using V = typename Vector<T>::type;
-    V sum[R][W] = {};
-    const T* row[R];
-#pragma GCC unroll 24
-    for (int r = 0; r < R; ++r) row[r] = a[r];
-    for (std::ptrdiff_t d = 0; d < depth; ++d, b += W * lanes<T>) {
-        V right[W];
-#pragma GCC unroll 4
-        for (int w = 0; w < W; ++w) right[w] = *reinterpret_cast<const V*>(b + w * lanes<T>);
-#pragma GCC unroll 24
-        for (int r = 0; r < R; ++r)
-#pragma GCC unroll 4
-            for (int w = 0; w < W; ++w) sum[r][w] += row[r][d] * right[w];
-    }
-#pragma GCC unroll 24
+inline void add_rows(RowPointers<T, R> a, const T* b, std::ptrdiff_t depth, T* const* c) {
+    alignas(vector_bytes) Lanes<T> sum[R][W];
+    multiply_tile<T, R, W>(a, b, W * lanes<T>, depth, sum);
+#pragma GCC unroll 16
     for (int r = 0; r < R; ++r)
 #pragma GCC unroll 4
-        for (int w = 0; w < W; ++w) *reinterpret_cast<V*>(c[r] + w * lanes<T>) += sum[r][w];
+        for (int w = 0; w < W; ++w) store(c[r] + w * lanes<T>, load(c[r] + w * lanes<T>) + sum[r][w]);
 }
 
 /// All rows of a column block, a cut at a time. Rows missing in the last tile are stood for by a spare one.
@@ -106,20 +79,20 @@ void product_block(Rows<const T> a, const T* b, std::ptrdiff_t depth, Rows<T> c,
     T spare[W * lanes<T>] = {};
     for (std::ptrdiff_t d = 0; d < depth; d += cut) {
         const auto deep = std::min(cut, depth - d);
-        const T* left[R];
+        RowPointers<T, R> left;
         T* out[R];
         int filled = 0;
         const auto flush = [&] {
             for (int r = filled; r < R; ++r) {
-                left[r] = left[0];
+                left.row[r] = left.row[0];
                 out[r] = spare;
             }
-            product_tile<T, R, W>(left, b + d * W * lanes<T>, deep, out);
+            add_rows<T, R, W>(left, b + d * W * lanes<T>, deep, out);
             filled = 0;
         };
         for (std::ptrdiff_t t = 0; t < frames; ++t)
             for (std::ptrdiff_t k = 0; k < joints; ++k) {
-                left[filled] = a.at(t, k) + d;
+                left.row[filled] = a.at(t, k) + d;
                 out[filled] = c.at(t, k);
                 if (++filled == R) flush();
             }
@@ -131,24 +104,20 @@ void product_block(Rows<const T> a, const T* b, std::ptrdiff_t depth, Rows<T> c,
 template <typename T, int R, int W>
 inline void outer_tile(Rows<const T> a, Rows<const T> g, std::ptrdiff_t frames, std::ptrdiff_t joints,
                        T* sums, std::ptrdiff_t stride) {
-    using V = typename Vector<T>::type;
-    V sum[R][W] = {};
+    alignas(vector_bytes) Lanes<T> sum[R][W] = {};
     for (std::ptrdiff_t t = 0; t < frames; ++t) {
         const T *left = a.at(t, 0), *right = g.at(t, 0);
         for (std::ptrdiff_t k = 0; k < joints; ++k, left += a.row, right += g.row) {
-            V column[W];
+            Lanes<T> column[W];
 #pragma GCC unroll 4
-            for (int w = 0; w < W; ++w) column[w] = *reinterpret_cast<const V*>(right + w * lanes<T>);
+            for (int w = 0; w < W; ++w) column[w] = load(right + w * lanes<T>);
 #pragma GCC unroll 16
             for (int r = 0; r < R; ++r)
 #pragma GCC unroll 4
                 for (int w = 0; w < W; ++w) sum[r][w] += left[r] * column[w];
         }
     }
-#pragma GCC unroll 16
-    for (int r = 0; r < R; ++r)
-#pragma GCC unroll 4
-        for (int w = 0; w < W; ++w) *reinterpret_cast<V*>(sums + r * stride + w * lanes<T>) += sum[r][w];
+    add_tile<T, R, W>(sum, sums, stride);
 }
 
 template <typename T, int W>
@@ -208,4 +177,4 @@ void add_outer(Rows<const T> a, Rows<const T> g, std::ptrdiff_t frames, std::ptr
     }
 }
 
-}  // namespace actformer::model
+}  // namespace actformer::model::cpu

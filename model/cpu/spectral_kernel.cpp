@@ -5,7 +5,9 @@
 namespace actformer::model::cpu {
 namespace {
 
-enum Slot : std::size_t { column_sums, row_products };
+/// What scratch memory is for.
+struct ColumnSums {};
+struct RowProducts {};
 
 /// Below it one thread is done before the others are awake.
 constexpr std::int64_t worth_threads = 1 << 18;
@@ -35,7 +37,7 @@ void transposed_product(const T* matrix, std::int64_t rows, std::int64_t columns
 #pragma omp parallel num_threads(threads)
     {
         T* sums = own[static_cast<std::size_t>(omp_get_thread_num())] =
-            zeroed_scratch<T>(column_sums, columns);
+            zeroed_scratch<T>(ColumnSums{}, columns);
 #pragma omp for schedule(static)
         for (std::int64_t r = 0; r < rows; ++r) add_scaled(matrix + r * columns, u[r], columns, sums);
     }
@@ -64,7 +66,7 @@ T power_iteration(const T* matrix, std::int64_t rows, std::int64_t columns, T* u
 template <typename T>
 T singular_value(const T* matrix, std::int64_t rows, std::int64_t columns, const T* u, const T* v,
                  int threads) {
-    T* products = scratch<T>(row_products, rows);
+    T* products = scratch<T>(RowProducts{}, rows);
     row_dots(matrix, rows, columns, v, products, team(rows * columns, threads));
     return dot(products, u, rows);
 }
@@ -79,7 +81,7 @@ template <typename T>
 void spectral_backward(const T* grad, const T* normalised, std::int64_t rows, std::int64_t columns,
                        const T* u, const T* v, T value, T* to, int threads) {
     threads = team(rows * columns, threads);
-    T* dots = scratch<T>(row_products, rows);
+    T* dots = scratch<T>(RowProducts{}, rows);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t r = 0; r < rows; ++r)
         dots[r] = dot(grad + r * columns, normalised + r * columns, columns);

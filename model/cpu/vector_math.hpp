@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "model/cpu/products.hpp"
+#include "model/cpu/vectors.hpp"
 
 namespace actformer::model::cpu {
 

@@ -293,26 +293,31 @@ const char* convolution_name(const cpu::NodeShape& shape) {
     return "graph convolution, coarsening";
 }
 
+/// What a graph convolution keeps for the way back beside tensors.
+struct NodeLayer : torch::CustomClassHolder {
+    cpu::NodeShape shape;
+    std::shared_ptr<const cpu::NodeSums> sums;
+    double leak;
+
+    NodeLayer(const cpu::NodeShape& of, std::shared_ptr<const cpu::NodeSums> from, double slope)
+        : shape(of), sums(std::move(from)), leak(slope) {}
+};
+
 /// Functions take no undefined tensors: an empty bias stands for none.
 struct NodeConvolve : Function<NodeConvolve> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& weight,
-                              const at::Tensor& bias, const cpu::NodeShape& shape, const cpu::NodeSums* sums,
-                              double leak) {
+                              const at::Tensor& bias, const c10::intrusive_ptr<NodeLayer>& layer) {
+        const auto& shape = layer->shape;
         auto y =
             at::empty({shape.samples, shape.out_nodes, shape.padded_out_frames(), shape.out}, x.options());
         timed(convolution_name(shape), false, x, [&](auto number) {
             using T = decltype(number);
-            cpu::node_forward<T>(shape, *sums, in<T>(x), in<T>(weight),
-                                 bias.numel() > 0 ? in<T>(bias) : nullptr, static_cast<T>(leak), in<T>(y),
-                                 threads());
+            cpu::node_forward<T>(shape, *layer->sums, in<T>(x), in<T>(weight),
+                                 bias.numel() > 0 ? in<T>(bias) : nullptr, static_cast<T>(layer->leak),
+                                 in<T>(y), threads());
         });
         context->save_for_backward({x, weight, bias, y});
-        context->saved_data["shape"] = std::vector<std::int64_t>{
-            shape.samples,   shape.in_nodes, shape.out_nodes, shape.frames,  shape.in,
-            shape.out,       shape.taps,     shape.stride,    shape.padding, shape.out_padding,
-            shape.node_step, shape.hop_step, shape.row_step};
-        context->saved_data["sums"] = reinterpret_cast<std::int64_t>(sums);
-        context->saved_data["leak"] = leak;
+        context->saved_data["layer"] = c10::IValue::make_capsule(layer);
         return y;
     }
 
@@ -320,22 +325,20 @@ struct NodeConvolve : Function<NodeConvolve> {
         const auto saved = context->get_saved_variables();
         const auto &x = saved[0], &weight = saved[1], &bias = saved[2], &y = saved[3];
         const auto grad = grads[0].contiguous();
-        const auto s = context->saved_data["shape"].toIntVector();
-        const cpu::NodeShape shape{s[0], s[1], s[2], s[3],  s[4],  s[5], s[6],
-                                   s[7], s[8], s[9], s[10], s[11], s[12]};
-        const auto* sums = reinterpret_cast<const cpu::NodeSums*>(context->saved_data["sums"].toInt());
+        const auto capsule = context->saved_data["layer"].toCapsule();
+        const auto& layer = static_cast<const NodeLayer&>(*capsule);
+        const auto& shape = layer.shape;
         at::Tensor to_x, to_weight, to_bias;
         if (context->needs_input_grad(0)) to_x = at::empty_like(x);
         if (context->needs_input_grad(1)) to_weight = at::empty_like(weight);
         if (bias.numel() > 0 && context->needs_input_grad(2)) to_bias = at::empty_like(bias);
         timed(convolution_name(shape), true, x, [&](auto number) {
             using T = decltype(number);
-            cpu::node_backward<T>(shape, *sums, in<T>(x), in<T>(weight),
-                                  static_cast<T>(context->saved_data["leak"].toDouble()), in<T>(y),
-                                  in<T>(grad), weight.numel(),
+            cpu::node_backward<T>(shape, *layer.sums, in<T>(x), in<T>(weight), static_cast<T>(layer.leak),
+                                  in<T>(y), in<T>(grad), weight.numel(),
                                   {in<T>(to_x), in<T>(to_weight), in<T>(to_bias)}, threads());
         });
-        return {to_x, to_weight, to_bias, {}, {}, {}};
+        return {to_x, to_weight, to_bias, {}};
     }
 };
 
@@ -407,9 +410,10 @@ at::Tensor fused_motion_input(const at::Tensor& motion, std::int64_t padding) {
 }
 
 at::Tensor fused_node_convolution(const at::Tensor& x, const at::Tensor& weight, const at::Tensor& bias,
-                                  const cpu::NodeShape& shape, const cpu::NodeSums& sums, double leak) {
-    return NodeConvolve::apply(x, weight, bias.defined() ? bias : at::empty({0}, x.options()), shape, &sums,
-                               leak);
+                                  const cpu::NodeShape& shape, std::shared_ptr<const cpu::NodeSums> sums,
+                                  double leak) {
+    return NodeConvolve::apply(x, weight, bias.defined() ? bias : at::empty({0}, x.options()),
+                               c10::make_intrusive<NodeLayer>(shape, std::move(sums), leak));
 }
 
 }  // namespace actformer::model

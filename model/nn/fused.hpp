@@ -5,6 +5,8 @@
 
 #include <ATen/ATen.h>
 
+#include <memory>
+
 #include "model/cpu/node_kernels.hpp"
 
 namespace actformer::model {
@@ -42,8 +44,9 @@ at::Tensor fused_poses(const at::Tensor& x, const LinearTensors& norm, const Lin
 at::Tensor fused_motion_input(const at::Tensor& motion, std::int64_t padding);
 
 /// A graph convolution and its LeakyReLU. x (N, in_nodes, padded_frames, in), bias (out_nodes, out) or undefined ->
-/// (N, out_nodes, padded_out_frames, out). `shape` but for its samples and frames; `sums` outlives the gradient.
+/// (N, out_nodes, padded_out_frames, out).
 at::Tensor fused_node_convolution(const at::Tensor& x, const at::Tensor& weight, const at::Tensor& bias,
-                                  const cpu::NodeShape& shape, const cpu::NodeSums& sums, double leak);
+                                  const cpu::NodeShape& shape, std::shared_ptr<const cpu::NodeSums> sums,
+                                  double leak);
 
 }  // namespace actformer::model

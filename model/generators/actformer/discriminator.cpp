@@ -31,10 +31,11 @@ Discriminator::Discriminator(DiscriminatorSettings settings, std::uint64_t seed,
         const auto sums =
             at::from_blob(values.data(), {conv.sums.hops, conv.sums.outputs, conv.sums.inputs}, at::kFloat);
         sums_.push_back(register_buffer(fmt::format("sums{}", sums_.size()), sums.to(type, false, true)));
-        node_sums_.emplace_back(conv.sums);
+        node_sums_.push_back(std::make_shared<cpu::NodeSums>(conv.sums.hops, conv.sums.outputs,
+                                                             conv.sums.inputs, conv.sums.values));
     }
     const auto coarse = convolutions_.back().sums.outputs;
-    node_sums_.emplace_back(HopMatrix{1, 1, coarse, std::vector<float>(coarse, 1)});
+    node_sums_.push_back(std::make_shared<cpu::NodeSums>(1, 1, coarse, std::vector<float>(coarse, 1)));
 }
 
 at::Tensor Discriminator::linear(const at::Tensor& x, const std::string& name) const {
@@ -86,28 +87,32 @@ at::Tensor Discriminator::fused_features(const at::Tensor& motion) const {
     for (std::size_t i = 0; i < convolutions_.size(); ++i) {
         const auto& conv = convolutions_[i];
         const bool last = i + 1 == convolutions_.size();
-        const std::int64_t window = std::int64_t{conv.taps} * conv.in;
-        const cpu::NodeShape shape{x.size(0),
-                                   conv.sums.inputs,
-                                   conv.sums.outputs,
-                                   frames,
-                                   conv.in,
-                                   conv.out,
-                                   conv.taps,
-                                   conv.stride,
-                                   conv.padding,
-                                   last ? last_padding : convolutions_[i + 1].padding,
-                                   conv.sums.hops * conv.out * window,
-                                   conv.out * window,
-                                   window};
+        const auto shape = cpu::NodeShape{.samples = x.size(0),
+                                          .frames = frames,
+                                          .in_nodes = conv.sums.inputs,
+                                          .out_nodes = conv.sums.outputs,
+                                          .in = conv.in,
+                                          .out = conv.out,
+                                          .taps = conv.taps,
+                                          .stride = conv.stride,
+                                          .padding = conv.padding,
+                                          .out_padding = last ? last_padding : convolutions_[i + 1].padding}
+                               .with_weights_by_node(conv.sums.hops);
         x = fused_node_convolution(x, weights_.normalised(fmt::format("convs.{}.weight", i), is_training()),
                                    node_bias(i), shape, node_sums_[i], leak);
         frames = shape.out_frames();
     }
-    const std::int64_t nodes = convolutions_.back().sums.outputs, features = settings_.features(),
-                       window = last_taps * features / 2;
-    const cpu::NodeShape shape{x.size(0),    nodes, 1,      frames, features / 2,  features, last_taps, 2,
-                               last_padding, 0,     window, 0,      nodes * window};
+    const std::int64_t features = settings_.features();
+    const auto shape = cpu::NodeShape{.samples = x.size(0),
+                                      .frames = frames,
+                                      .in_nodes = convolutions_.back().sums.outputs,
+                                      .out_nodes = 1,
+                                      .in = features / 2,
+                                      .out = features,
+                                      .taps = last_taps,
+                                      .stride = 2,
+                                      .padding = last_padding}
+                           .with_weights_by_output();
     x = fused_node_convolution(x, weights_.normalised("last.weight", is_training()),
                                weights_.at("last.bias").view({1, features}), shape, node_sums_.back(), leak);
     return x.sum({1, 2});

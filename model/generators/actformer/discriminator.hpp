@@ -3,6 +3,7 @@
 
 #include <torch/nn/module.h>
 
+#include "model/generators/actformer/layers.hpp"
 #include "model/nn/weight_store.hpp"
 
 namespace actformer::model {
@@ -35,8 +36,9 @@ class Discriminator : public torch::nn::Module {
     DiscriminatorSettings settings_;
     WeightStore weights_;
     std::vector<NodeConvolution> convolutions_;
-    std::vector<at::Tensor> sums_;          ///< (hops, out, in) of every convolution
-    std::vector<cpu::NodeSums> node_sums_;  ///< the same for processors, and the last convolution's
+    std::vector<at::Tensor> sums_;  ///< (hops, out, in) of every convolution
+    std::vector<std::shared_ptr<const cpu::NodeSums>>
+        node_sums_;  ///< the same for processors, and the last convolution's
 };
 
 }  // namespace actformer::model

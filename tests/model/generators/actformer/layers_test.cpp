@@ -3,6 +3,7 @@
 #include <ATen/Parallel.h>
 #include <gtest/gtest.h>
 
+#include "model/generators/actformer/coarsening.hpp"
 #include "model/nn/fused.hpp"
 #include "tests/support/gradients.hpp"
 #include "tests/support/rounding.hpp"
@@ -56,11 +57,23 @@ HopMatrix some_sums() {
     return hop_matrix(graph_of_tree({-1, 0, 1, 2}), {1, 2});
 }
 
+std::shared_ptr<const cpu::NodeSums> groups_of(const HopMatrix& sums) {
+    return std::make_shared<cpu::NodeSums>(sums.hops, sums.outputs, sums.inputs, sums.values);
+}
+
 cpu::NodeShape node_shape(const HopMatrix& sums, std::int64_t samples, std::int64_t frames, std::int64_t in,
                           std::int64_t out, std::int64_t taps, std::int64_t stride, std::int64_t padding) {
-    const auto window = taps * in;
-    return {samples, sums.inputs, sums.outputs,     frames,       in,    out, taps, stride,
-            padding, 1,           2 * out * window, out * window, window};
+    return cpu::NodeShape{.samples = samples,
+                          .frames = frames,
+                          .in_nodes = sums.inputs,
+                          .out_nodes = sums.outputs,
+                          .in = in,
+                          .out = out,
+                          .taps = taps,
+                          .stride = stride,
+                          .padding = padding,
+                          .out_padding = 1}
+        .with_weights_by_node(2);
 }
 
 /// Zeros on either side of the frames.
@@ -202,8 +215,8 @@ TEST_F(ActformerLayers, MotionInputAppendsDifferences) {
 
 TEST_F(ActformerLayers, NodeConvolutionSumsOverHopsAndNodes) {
     const auto sums = some_sums();
-    const cpu::NodeSums groups(sums);
-    EXPECT_EQ(groups.groups.size(), 6U);  // at no hop nodes 1 and 2, at one hop all four
+    const auto groups = groups_of(sums);
+    EXPECT_EQ(groups->groups.size(), 6U);  // at no hop nodes 1 and 2, at one hop all four
     for (const std::int64_t stride : {1, 2}) {
         const std::int64_t taps = stride == 1 ? 5 : 4, padding = stride == 1 ? 2 : 1;
         const auto x = random({3, 4, 9, 6}), weight = random({4, 2, 18, taps, 6}), bias = random({2, 18});
@@ -221,7 +234,7 @@ TEST_F(ActformerLayers, NodeConvolutionSumsOverHopsAndNodes) {
 
 TEST_F(ActformerLayers, WeightsThatFeedNothingHaveNoGradient) {
     const auto sums = some_sums();
-    const cpu::NodeSums groups(sums);
+    const auto groups = groups_of(sums);
     const auto x = at::randn({2, 4, 9 + 2, 6}, at::kDouble), weight = random({4, 2, 8, 4, 6});
     fused_node_convolution(x, weight, {}, node_shape(sums, 2, 9, 6, 8, 4, 2, 1), groups, 0.2)
         .sum()
@@ -257,7 +270,7 @@ TEST_F(ActformerLayers, ThreadsShareTheWork) {
     const auto x = random({5, 2, 9, 12}), weight = random({4, 2, 18, 4, 6}), motion = random({5, 4, 11, 6});
     const auto norm = random_norm(12), qkv = random_linear(36, 12), proj = random_linear(12, 12);
     const auto sums = some_sums();
-    const cpu::NodeSums groups(sums);
+    const auto groups = groups_of(sums);
     std::vector<at::Tensor> first;
     for (const int threads : {1, 3}) {
         at::set_num_threads(threads);
