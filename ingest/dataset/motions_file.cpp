@@ -4,6 +4,7 @@
 #include "base/files/aside.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
+#include "ingest/dataset/layout.hpp"
 
 namespace actformer::ingest {
 
@@ -48,13 +49,7 @@ Motion MotionsFile::read(const std::string& name) const {
                   numbers,
                   {}};
     const auto stored = file_->reader.read<float>(name);
-    motion.values.resize(stored.size());
-    const float* from = stored.data();
-    for (std::size_t p = 0; p < motion.persons; ++p)
-        for (std::size_t d = 0; d < numbers; ++d)
-            for (std::size_t k = 0; k < motion.nodes; ++k)
-                for (std::size_t t = 0; t < motion.frames; ++t)
-                    motion.values[((t * motion.persons + p) * motion.nodes + k) * numbers + d] = *from++;
+    take_channels_first(with_last_axes_swapped(stored, shape[0], shape[1], shape[2]), motion);
     return motion;
 }
 
@@ -68,13 +63,10 @@ MotionsWriter::MotionsWriter(const std::filesystem::path& path) : file_(new Hand
 MotionsWriter::~MotionsWriter() = default;
 
 void MotionsWriter::add(const std::string& name, const Motion& motion) {
-    std::vector<float> turned(motion.values.size());
-    float* to = turned.data();
-    for (std::size_t p = 0; p < motion.persons; ++p)
-        for (std::size_t d = 0; d < motion.numbers; ++d)
-            for (std::size_t k = 0; k < motion.nodes; ++k)
-                for (std::size_t t = 0; t < motion.frames; ++t) *to++ = motion.at(t, p, k)[d];
-    file_->writer.write<float>(name, {motion.persons * motion.numbers, motion.nodes, motion.frames}, turned);
+    const auto channels = motion.persons * motion.numbers;
+    file_->writer.write<float>(
+        name, {channels, motion.nodes, motion.frames},
+        with_last_axes_swapped(channels_first(motion), channels, motion.frames, motion.nodes));
 }
 
 void MotionsWriter::describe(const Subjects& subjects) {
