@@ -7,7 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
-#include "model/generators/actformer/generate.hpp"
+#include "model/generators/generate.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -29,13 +29,13 @@ void run(const Options& options) {
                                                   {"motions", made.motions},
                                                   {"classes", made.classes},
                                                   {"persons", made.persons},
-                                                  {"joints", made.joints},
+                                                  {"joints", made.nodes},
                                                   {"frames", made.frames}}
                                .dump(2));
     else
         fmt::print("{}: {} of {}, each ({}, {}, {})\n", file, counted(made.motions, "motion"),
-                   made.classes == 1 ? "1 class" : fmt::format("{} classes", made.classes), made.persons * 3,
-                   made.joints, made.frames);
+                   made.classes == 1 ? "1 class" : fmt::format("{} classes", made.classes), made.persons * made.numbers,
+                   made.nodes, made.frames);
 }
 
 }  // namespace

@@ -9,8 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "ingest/dataset/dataset.hpp"
-#include "model/generators/actformer/gan_settings.hpp"
-#include "model/generators/actformer/layers.hpp"
+#include "model/generators/method.hpp"
 #include "model/recognisers/recogniser_settings.hpp"
 
 namespace actformer::cli {
@@ -22,16 +21,9 @@ struct Options {
     bool json = false;
 };
 
-/// What a network is made for: a dataset, or NTU's skeleton with the configuration's persons and classes.
-struct Shape {
-    ingest::Topology topology;
-    std::uint32_t persons = 0;
-    std::size_t classes = 0;
-    std::string named;  ///< in complaints
-};
-
-Shape shape_of(const std::string& data, std::int64_t persons, std::int64_t classes,
-               const std::string& config) {
+/// What networks are made for: a dataset, or NTU's skeleton with the configuration's persons and classes.
+model::MotionSpec spec_of(const std::string& data, std::int64_t persons, std::int64_t classes,
+                          const std::string& config) {
     if (!data.empty()) {
         const auto folders = ingest::datasets_at(data);
         if (folders.size() != 1)
@@ -39,53 +31,40 @@ Shape shape_of(const std::string& data, std::int64_t persons, std::int64_t class
                         folders[0].string());
         const ingest::Dataset dataset(folders[0]);
         const auto& header = dataset.header();
-        return {header.topology, header.persons, header.classes.size(), folders[0].string()};
+        return {header.representation, header.topology, header.persons,
+                static_cast<std::uint32_t>(header.classes.size()), folders[0].string()};
     }
     if (persons == 0 || classes == 0)
         throw Error(
             "{}: leaves persons or classes to the dataset; give --data DATASET, or persons=1 classes=94",
             config);
-    return {ingest::ntu25(), static_cast<std::uint32_t>(persons), static_cast<std::size_t>(classes), config};
+    return {ingest::Representation::limb, ingest::ntu25(), static_cast<std::uint32_t>(persons),
+            static_cast<std::uint32_t>(classes), config};
 }
 
-/// A network and its layers.
-struct Network {
-    std::string name;
-    std::vector<model::SummaryLine> lines;
-
-    std::int64_t parameters() const {
-        return std::accumulate(lines.begin(), lines.end(), std::int64_t{0},
-                               [](std::int64_t sum, const auto& line) { return sum + line.parameters; });
-    }
-};
+std::int64_t parameters_of(const model::NetworkSummary& network) {
+    return std::accumulate(network.lines.begin(), network.lines.end(), std::int64_t{0},
+                           [](std::int64_t sum, const auto& line) { return sum + line.parameters; });
+}
 
 /// The configuration with its overrides, and what its networks are for.
-std::pair<model::Config, Shape> read(model::Config config, const Options& options) {
+std::pair<model::Config, model::MotionSpec> read(model::Config config, const Options& options) {
     config.load(options.config);
     for (const auto& assignment : options.overrides) config.override_with(assignment);
-    const auto data =
-        options.data.empty() && config.has("data") ? config.get<std::string>("data") : options.data;
-    const auto shape = shape_of(data, config.get<std::int64_t>("persons"),
-                                config.get<std::int64_t>("classes"), options.config);
-    return {std::move(config), shape};
+    const auto data = options.data.empty() ? config.get<std::string>("data") : options.data;
+    auto spec = spec_of(data, config.get<std::int64_t>("persons"), config.get<std::int64_t>("classes"),
+                        options.config);
+    return {std::move(config), std::move(spec)};
 }
 
-std::vector<Network> networks_of(const Options& options) {
-    if (model::model_named_in(options.config) == "generator") {
-        const auto [config, shape] = read(model::generator_config(), options);
-        constexpr std::uint32_t numbers = 3;
-        const auto frames = static_cast<std::uint32_t>(config.get<std::int64_t>("frames"));
-        const auto generator = model::generator_settings(config, shape.topology, shape.persons, shape.classes,
-                                                         numbers, shape.named);
-        const auto discriminator = model::discriminator_settings(config, shape.topology, shape.persons,
-                                                                 shape.classes, numbers, shape.named);
-        return {{"generator", model::generator_summary(generator, frames)},
-                {"discriminator", model::discriminator_summary(discriminator, frames)}};
+std::vector<model::NetworkSummary> networks_of(const Options& options) {
+    if (model::model_named_in(options.config) != "recogniser") {
+        const auto [config, spec] = read(model::read_generator_config(options.config), options);
+        return model::method_named(config.model(), options.config).networks(config, spec);
     }
-    const auto [config, shape] = read(model::recogniser_config(), options);
+    const auto [config, spec] = read(model::recogniser_config(), options);
     const auto settings = model::recogniser_settings(config);
-    const auto network =
-        model::network_for(settings, shape.topology, shape.persons, shape.classes, shape.named);
+    const auto network = model::network_for(settings, spec.topology, spec.persons, spec.classes, spec.where);
     return {{"recogniser", model::stgcn_summary(network, settings.frames)}};
 }
 
@@ -93,18 +72,18 @@ std::string shape_text(const std::vector<std::int64_t>& shape) {
     return fmt::format("({})", fmt::join(shape, ", "));
 }
 
-void print_text(const std::vector<Network>& networks) {
+void print_text(const std::vector<model::NetworkSummary>& networks) {
     for (const auto& network : networks) {
         fmt::print("{:<24} {:<40} {:<16} {:>12}\n", network.name, "what", "output", "parameters");
         for (const auto& line : network.lines)
             fmt::print("{:<24} {:<40} {:<16} {:>12}\n", line.layer, line.kind, shape_text(line.shape),
                        grouped(static_cast<std::uint64_t>(line.parameters)));
         fmt::print("{:<24} {:<40} {:<16} {:>12}\n\n", "total", "", "",
-                   grouped(static_cast<std::uint64_t>(network.parameters())));
+                   grouped(static_cast<std::uint64_t>(parameters_of(network))));
     }
 }
 
-void print_json(const std::vector<Network>& networks) {
+void print_json(const std::vector<model::NetworkSummary>& networks) {
     nlohmann::ordered_json out;
     std::int64_t all = 0;
     for (const auto& network : networks) {
@@ -117,8 +96,8 @@ void print_json(const std::vector<Network>& networks) {
         if (networks.size() == 1)
             out["layers"] = layers;
         else
-            out[network.name] = {{"layers", layers}, {"parameters", network.parameters()}};
-        all += network.parameters();
+            out[network.name] = {{"layers", layers}, {"parameters", parameters_of(network)}};
+        all += parameters_of(network);
     }
     out["parameters"] = all;
     fmt::print("{}\n", out.dump(2));

@@ -1,11 +1,14 @@
-// What every `actformer train` command takes.
+// What every `actformer train` command takes and shows.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/progress.hpp"
 #include "model/train/config.hpp"
+#include "model/train/training_events.hpp"
 
 namespace actformer::cli {
 
@@ -15,25 +18,27 @@ struct TrainingOptions {
     bool json = false;
 
     /// The configuration file, the overrides on top, and --data on top of both.
-    model::Config read(model::Config blank) const {
-        blank.load(config);
-        for (const auto& assignment : overrides) blank.override_with(assignment);
-        if (!data.empty()) blank.override_with("data=" + data);
-        return blank;
-    }
+    model::Config read(model::Config blank) const;
 };
 
 /// `options` must outlive the command.
-inline void add_training_options(CLI::App* command, TrainingOptions& options) {
-    command->add_option("-c,--config", options.config, "Configuration, as in model/configs")
-        ->required()
-        ->type_name("CONFIG.yaml");
-    command->add_option("--data", options.data, "Dataset folder, before the configuration's data:")
-        ->type_name("DATASET");
-    command->add_option("-o,--out", options.run, "Folder of this training")->required()->type_name("RUN");
-    command->add_option("overrides", options.overrides, "As in batch=32, before the configuration's")
-        ->type_name("KEY=VALUE");
-    command->add_flag("--json", options.json, "Print the result as JSON");
-}
+void add_training_options(CLI::App* command, TrainingOptions& options);
+
+/// Progress, epochs, scores and notes on standard error. Outlives the training.
+class TrainingDisplay {
+  public:
+    explicit TrainingDisplay(std::int64_t epochs) : epochs_(epochs), progress_("train", "steps") {}
+    model::TrainingEvents events();
+    void clear() { progress_.clear(); }
+
+  private:
+    void print_epoch(const model::EpochReport& report);
+
+    std::int64_t epochs_;
+    Progress progress_;
+};
+
+/// Scores in a line, as in "accuracy 93.0 %  fid_whole 1.234".
+std::string text_of(const nlohmann::ordered_json& scores);
 
 }  // namespace actformer::cli

@@ -74,6 +74,12 @@ std::optional<std::uint64_t> Reader::offset(const std::string& name) const {
     return at == HADDR_UNDEF ? std::nullopt : std::optional<std::uint64_t>(at);
 }
 
+bool Reader::holds_doubles(const std::string& name) const {
+    const auto set = open(name);
+    const Handle stored(H5Dget_type(set.get()), H5Tclose);
+    return H5Tget_class(stored.get()) == H5T_FLOAT && H5Tget_size(stored.get()) == sizeof(double);
+}
+
 std::size_t Reader::elements(const Shape& shape) {
     return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
 }

@@ -21,6 +21,7 @@ class Reader {
     bool is_array(const std::string& name) const;
     bool has(const std::string& name) const;
     Shape shape(const std::string& name) const;
+    bool holds_doubles(const std::string& name) const;  ///< numbers of 8 bytes with a fraction
 
     /// Where in the file an array begins that lies there in one piece; none of others.
     std::optional<std::uint64_t> offset(const std::string& name) const;

@@ -1,12 +1,12 @@
 #include "model/generators/generated_motions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/error.hpp"
-#include "model/cpu/blas.hpp"
-#include "model/generators/actformer/generator_file.hpp"
-#include "model/generators/actformer/motion_maker.hpp"
+#include "model/generators/generator_file.hpp"
+#include "model/nn/blas.hpp"
 #include "model/train/training.hpp"
 
 namespace actformer::model {
@@ -15,6 +15,7 @@ namespace {
 /// A generator that is ready, and what is asked of it.
 struct Loaded {
     GeneratorFile file;
+    std::shared_ptr<Maker> maker;
     std::vector<std::uint32_t> labels;
     std::uint32_t per_class = 0, made_frames = 0, frames = 0;  ///< frames: what is left of made_frames
     std::string source;
@@ -23,7 +24,7 @@ struct Loaded {
 class GeneratedMotions final : public eval::MotionSource {
   public:
     GeneratedMotions(std::shared_ptr<const Loaded> loaded, std::uint64_t seed)
-        : loaded_(std::move(loaded)), maker_(*loaded_->file.network, seed, loaded_->made_frames) {
+        : loaded_(std::move(loaded)), seed_(seed) {
         const auto& subjects = loaded_->file.subjects;
         info_.source = loaded_->source;
         info_.representation = subjects.representation;
@@ -47,12 +48,12 @@ class GeneratedMotions final : public eval::MotionSource {
     void list();
 
     std::shared_ptr<const Loaded> loaded_;
-    MotionMaker maker_;
+    std::uint64_t seed_;
     eval::MotionsInfo info_;
     std::vector<std::uint64_t> rows_;  ///< (labels, per_class) of each motion as it is made
     std::size_t class_ = 0;            ///< of the next batch, among Loaded::labels
     std::uint32_t first_ = 0;          ///< of the next batch, within its class
-    at::Tensor made_;
+    std::vector<float> values_;  ///< of the last batch
 };
 
 /// Rows follow the names in the order in which a file has them: A001_10 before A001_2.
@@ -73,21 +74,25 @@ void GeneratedMotions::list() {
 }
 
 eval::MotionBatch GeneratedMotions::next() try {
-    constexpr auto chunk = MotionMaker::chunk;
     if (class_ == loaded_->labels.size()) return {};
-    const auto count = std::min(chunk, loaded_->per_class - first_);
-    made_ = maker_.make(loaded_->labels[class_], first_ / chunk)
-                .narrow(0, 0, count)
-                .narrow(2, 0, loaded_->frames)
-                .contiguous();
+    const auto whole = loaded_->maker->batch();
+    const auto count = std::min(whole, loaded_->per_class - first_);
+    const auto made =
+        loaded_->maker->make(seed_, loaded_->labels[class_], first_ / whole, loaded_->made_frames);
+    const std::size_t frame = info_.joints, frames = loaded_->made_frames;
+    values_.clear();
+    for (std::size_t channel = 0; channel < std::size_t{count} * info_.channels; ++channel) {
+        const auto first = made.begin() + static_cast<std::ptrdiff_t>(channel * frames * frame);
+        values_.insert(values_.end(), first, first + static_cast<std::ptrdiff_t>(loaded_->frames * frame));
+    }
     eval::MotionBatch batch;
     const auto row = rows_.begin() + static_cast<std::ptrdiff_t>(class_ * loaded_->per_class + first_);
     batch.rows.assign(row, row + count);
-    if (!at::isfinite(made_).all().item<bool>())
+    if (!std::ranges::all_of(values_, [](float v) { return std::isfinite(v); }))
         throw Error("{}: motions such as '{}' hold numbers that are not finite; take earlier weights",
                     info_.source, info_.names[batch.rows[0]]);
     batch.frames = loaded_->frames;
-    batch.values = {made_.data_ptr<float>(), static_cast<std::size_t>(made_.numel())};
+    batch.values = values_;
     first_ += count;
     if (first_ == loaded_->per_class) {
         first_ = 0;
@@ -99,12 +104,9 @@ eval::MotionBatch GeneratedMotions::next() try {
 }
 
 Loaded load(const eval::GeneratedRequest& request) {
-    Loaded loaded{load_generator(request.generator),
-                  request.labels,
-                  request.per_class,
-                  0,
-                  request.frames,
+    Loaded loaded{load_generator(request.generator), {}, request.labels, request.per_class, 0, request.frames,
                   request.generator};
+    loaded.maker = loaded.file.maker(request.device.empty() ? "cpu" : request.device);
     const auto classes = loaded.file.subjects.classes.size();
     if (loaded.labels.empty()) {
         loaded.labels.resize(classes);
@@ -115,12 +117,11 @@ Loaded load(const eval::GeneratedRequest& request) {
             throw Error(
                 "{}: generates {} classes, and the real side has class {}; score on the data that it learnt",
                 request.generator, classes, label + 1);
-    loaded.made_frames = loaded.file.network->settings().frames;
+    loaded.made_frames = loaded.maker->most_frames();
     if (loaded.frames > loaded.made_frames)
         throw Error("{}: --frames {}, but its motions have {}; ask for fewer", request.generator,
                     loaded.frames, loaded.made_frames);
     if (loaded.frames == 0) loaded.frames = loaded.made_frames;
-    loaded.file.network->to(torch_device(request.device.empty() ? "cpu" : request.device));
     return loaded;
 }
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "model/generators/actformer/layers.hpp"
 #include "model/nn/fused.hpp"
+#include "model/nn/network.hpp"
 
 namespace actformer::model {
 

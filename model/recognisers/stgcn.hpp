@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "eval/stgcn/network.hpp"
+#include "model/nn/network.hpp"
 
 namespace actformer::model {
 
@@ -39,13 +40,7 @@ struct WeightInfo {
 /// Every weight, in the order of the public state_dict's layers.
 std::vector<WeightInfo> stgcn_weights(const StgcnSettings& settings);
 
-/// A line of the summary that `actformer model` prints.
-struct SummaryLine {
-    std::string layer, kind;
-    std::vector<std::int64_t> shape;  ///< of one sample's output
-    std::int64_t parameters = 0;      ///< trained numbers
-};
-
+/// Lines for `actformer model`; shapes are of one motion of `frames` frames.
 std::vector<SummaryLine> stgcn_summary(const StgcnSettings& settings, std::uint32_t frames);
 
 /// Throws Error where the settings describe no network.

@@ -164,7 +164,8 @@ std::string model_named_in(const std::filesystem::path& file) try {
     return {};
 }
 
-Config::Config(std::string model, std::vector<Key> keys) : model_(std::move(model)), keys_(std::move(keys)) {
+Config::Config(std::string model, std::vector<Key> keys, std::vector<std::string> other_names)
+    : model_(std::move(model)), keys_(std::move(keys)), other_names_(std::move(other_names)) {
     for (const auto& key : keys_) values_.push_back(key.preset);
 }
 
@@ -217,14 +218,16 @@ void Config::take(const YAML::Node& root, const std::string& file) {
         const auto name = scalar(entry.first);
         if (!seen.insert(name).second) throw Error("{}: {} is given twice", where, printable(name));
         if (name == "model") {
-            if (scalar(entry.second) == model_) continue;
+            const auto named = scalar(entry.second);
+            if (named == model_ || (!named.empty() && std::ranges::count(other_names_, named) > 0)) continue;
             throw Error("{}: a configuration for model '{}', not '{}'", where,
                         printable(scalar(entry.second)), model_);
         }
         const auto i = index_of(name, where);
         values_[i] = parsed(keys_[i], entry.second, where);
     }
-    if (!seen.contains("model")) throw Error("{}: the line `model: {}` is missing", file, model_);
+    if (!seen.contains("model") && std::ranges::count(other_names_, "") == 0)
+        throw Error("{}: the line `model: {}` is missing", file, model_);
 }
 
 void Config::override_with(const std::string& assignment) {
@@ -249,12 +252,10 @@ std::string Config::yaml() const {
     return out;
 }
 
-std::vector<std::string> Config::differences(const Config& other,
-                                             const std::vector<std::string>& ignored) const {
+std::vector<std::string> Config::differences(const Config& other) const {
     std::vector<std::string> out;
     for (std::size_t i = 0; i < keys_.size(); ++i) {
-        if (std::find(ignored.begin(), ignored.end(), keys_[i].name) != ignored.end()) continue;
-        if (values_[i] == other.values_[i]) continue;
+        if (keys_[i].free || values_[i] == other.values_[i]) continue;
         out.push_back(fmt::format("{} is {} there and {} here", keys_[i].name, text_of(other.values_[i]),
                                   text_of(values_[i])));
     }

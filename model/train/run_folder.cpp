@@ -29,10 +29,11 @@ RunFolder::~RunFolder() {
     if (lock_ >= 0) ::close(lock_);
 }
 
-void RunFolder::keep_to(const Config& config, Config blank, const std::vector<std::string>& free) const {
+void RunFolder::keep_to(const Config& config) const {
     if (std::filesystem::exists(this->config())) {
-        blank.load(this->config());
-        const auto differences = config.differences(blank, free);
+        auto before = config.blank();
+        before.load(this->config());
+        const auto differences = config.differences(before);
         if (!differences.empty())
             throw Error("{}: holds a training with other settings ({}); choose another -o", folder_.string(),
                         fmt::join(differences, ", "));

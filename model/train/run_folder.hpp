@@ -21,9 +21,9 @@ class RunFolder {
     const std::filesystem::path& path() const { return folder_; }
     std::filesystem::path config() const { return folder_ / "config.yaml"; }
 
-    /// Holds the training to the settings it began with, keys in `free` apart, and writes config.yaml. `blank` knows the
-    /// keys. Throws Error naming what differs.
-    void keep_to(const Config& config, Config blank, const std::vector<std::string>& free) const;
+    /// Holds the training to the settings it began with, keys that are free to change apart, and writes config.yaml. Throws
+    /// Error naming what differs.
+    void keep_to(const Config& config) const;
 
     /// Adds a line to log.jsonl.
     void log(const nlohmann::ordered_json& line) const;

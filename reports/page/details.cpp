@@ -199,7 +199,7 @@ class Details {
                 epoch.erase("class_accuracy");
             }
         return {{"generator", read_curves(run.run, {"discriminator_loss", "generator_loss", "real_score",
-                                                    "made_score", "accuracy", "fid_whole"})},
+                                                    "fake_score", "accuracy", "fid_whole"})},
                 {"recogniser", recogniser}};
     }
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "model/recognisers/recogniser_trainer.hpp"
+#include "model/recognisers/train_recogniser.hpp"
 #include "tests/support/course.hpp"
 
 using namespace actformer;
@@ -40,7 +40,9 @@ Outcome train_here(const Config& config) {
     const TempDir folder;
     Outcome outcome{{}, eval::Confusion(0)};
     TrainingEvents events;
-    events.epoch = [&](const EpochReport& report) { outcome.losses.push_back(report.loss); };
+    events.epoch = [&](const EpochReport& report) {
+        outcome.losses.push_back(value_of(report.losses, "loss"));
+    };
     outcome.confusion = train_recogniser(config, folder / "run", events).confusion;
     return outcome;
 }

@@ -6,7 +6,7 @@
 
 #include "base/hdf5/writer.hpp"
 #include "model/nn/sgd.hpp"
-#include "model/nn/weights_file.hpp"
+#include "model/recognisers/stgcn_file.hpp"
 #include "model/recognisers/stgcn_net.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"

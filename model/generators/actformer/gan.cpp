@@ -4,55 +4,29 @@
 
 #include "base/error.hpp"
 #include "model/nn/autocast.hpp"
+#include "model/nn/module_arrays.hpp"
 #include "model/nn/tensor_array.hpp"
 #include "model/train/training.hpp"
 
 namespace actformer::model {
 namespace {
 
-/// What is random has seeds of its own.
+/// Seeds of their own for what is random.
 constexpr std::uint64_t for_latents = 0, for_discriminator = 1;
 
 template <typename Network, typename Settings>
-std::shared_ptr<Network> made(const Settings& settings, std::uint64_t seed, const at::Device& device) {
+std::shared_ptr<Network> network_of(const Settings& settings, std::uint64_t seed, const at::Device& device) {
     auto network = std::make_shared<Network>(settings, seed);
     network->to(device);
     return network;
 }
 
-std::vector<std::pair<std::string, at::Tensor>> tensors_of(const torch::nn::Module& module) {
-    std::vector<std::pair<std::string, at::Tensor>> all;
-    for (const auto& item : module.named_parameters()) all.emplace_back(item.key(), item.value());
-    for (const auto& item : module.named_buffers()) all.emplace_back(item.key(), item.value());
-    return all;
-}
-
-at::Tensor discriminator_loss(Loss loss, const at::Tensor& real, const at::Tensor& made) {
-    if (loss == Loss::wasserstein) return made.mean() - real.mean();
-    return at::relu(1 - real).mean() + at::relu(1 + made).mean();
+at::Tensor discriminator_loss(Loss loss, const at::Tensor& real, const at::Tensor& fake) {
+    if (loss == Loss::wasserstein) return fake.mean() - real.mean();
+    return at::relu(1 - real).mean() + at::relu(1 + fake).mean();
 }
 
 }  // namespace
-
-std::vector<Array> arrays_of(const torch::nn::Module& module, const std::string& prefix) {
-    std::vector<Array> arrays;
-    for (const auto& [name, tensor] : tensors_of(module)) arrays.push_back(array_of(prefix + name, tensor));
-    return arrays;
-}
-
-void load_arrays(const torch::nn::Module& module, const std::string& prefix, const std::vector<Array>& arrays,
-                 const std::string& where) {
-    for (const auto& [name, tensor] : tensors_of(module)) {
-        const auto found = std::find_if(arrays.begin(), arrays.end(), [&, &key = name](const Array& array) {
-            return array.name == prefix + key;
-        });
-        if (found == arrays.end()) throw Error("{}: holds no '{}{}'", where, prefix, name);
-        if (found->shape != tensor.sizes().vec())
-            throw Error("{}: '{}{}' is of shape ({}) where ({}) belongs", where, prefix, name,
-                        fmt::join(found->shape, ", "), fmt::join(tensor.sizes(), ", "));
-        copy_into(tensor, *found, where);
-    }
-}
 
 Gan::Gan(const GanSettings& settings, const GeneratorSettings& generator,
          const DiscriminatorSettings& discriminator, const at::Device& device, const Processes& processes)
@@ -60,17 +34,18 @@ Gan::Gan(const GanSettings& settings, const GeneratorSettings& generator,
       device_(device),
       processes_(processes),
       prior_(generator.prior, step_seed(settings.seed, for_latents)),
-      generator_(made<Generator>(generator, settings.seed, device)),
-      shown_(generator_),
-      discriminator_(made<Discriminator>(discriminator, step_seed(settings.seed, for_discriminator), device)),
+      generator_(network_of<Generator>(generator, settings.seed, device)),
+      ema_(generator_),
+      discriminator_(
+          network_of<Discriminator>(discriminator, step_seed(settings.seed, for_discriminator), device)),
       generator_parameters_(generator_->parameters(), 1),
       discriminator_parameters_(discriminator_->parameters(), 3),
-      generator_adam_(generator_parameters_, settings.generator),
-      discriminator_adam_(discriminator_parameters_, settings.discriminator),
+      generator_adam_(generator_parameters_, settings.generator_adam()),
+      discriminator_adam_(discriminator_parameters_, settings.discriminator_adam()),
       sums_(at::zeros({4}, at::TensorOptions(at::kDouble).device(device))) {
     if (settings.average > 0) {
-        shown_ = made<Generator>(generator, settings.seed, device);
-        shown_parameters_.emplace(shown_->parameters());
+        ema_ = network_of<Generator>(generator, settings.seed, device);
+        ema_parameters_.emplace(ema_->parameters());
     }
     share(0);
 }
@@ -84,14 +59,14 @@ at::Tensor Gan::latent(const at::Tensor& labels, std::uint64_t draw) {
 void Gan::step_discriminator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw) {
     const auto z = latent(labels, draw);
     discriminator_parameters_.zero_gradients();
-    at::Tensor scores, made;
+    at::Tensor scores, fake;
     {
         const Autocast reduced(settings_.bf16);
         {
             const at::NoGradGuard no_gradients;
-            made = generator_->forward(z, labels).to(at::kFloat);
+            fake = generator_->forward(z, labels).to(at::kFloat);
         }
-        scores = discriminator_->forward(at::cat({real, made}), at::cat({labels, labels})).to(at::kFloat);
+        scores = discriminator_->forward(at::cat({real, fake}), at::cat({labels, labels})).to(at::kFloat);
     }
     const auto of = scores.chunk(2);
     const auto loss = discriminator_loss(settings_.loss, of[0], of[1]);
@@ -119,23 +94,22 @@ void Gan::step_generator(const at::Tensor& labels, std::uint64_t draw) {
     processes_.average(generator_parameters_.message());
     generator_adam_.step(rate_share_);
     sums_.narrow(0, 3, 1).add_(generator_parameters_.remarks());
-    if (!shown_parameters_) return;
+    if (!ema_parameters_) return;
     const auto t = static_cast<double>(generator_adam_.steps);
     const double decay = std::min(settings_.average, (1 + t) / (10 + t));  // the beginning is soon forgotten
-    shown_parameters_->values().lerp_(generator_parameters_.values(), 1 - decay);
+    ema_parameters_->values().lerp_(generator_parameters_.values(), 1 - decay);
 }
 
-/// The mean weights have singular vectors of their own, close to those of the last weights: a few power iterations from
-/// there find them.
-Generator& Gan::shown() {
+/// The EMA has singular vectors of its own, close to those of the last weights: a few power iterations from there find them.
+Generator& Gan::ema() {
     const at::NoGradGuard no_gradients;
-    if (shown_parameters_) {
+    if (ema_parameters_) {
         const auto from = generator_->named_buffers();
-        for (auto& item : shown_->named_buffers()) item.value().copy_(from[item.key()]);
-        for (const auto& weight : generator_weights(shown_->settings()))
-            for (int i = 0; weight.spectral && i < 10; ++i) shown_->weights().normalised(weight.name, true);
+        for (auto& item : ema_->named_buffers()) item.value().copy_(from[item.key()]);
+        for (const auto& weight : generator_weights(ema_->settings()))
+            for (int i = 0; weight.spectral && i < 10; ++i) ema_->weights().normalised(weight.name, true);
     }
-    return *shown_;
+    return *ema_;
 }
 
 bool Gan::finite() {
@@ -144,19 +118,20 @@ bool Gan::finite() {
 }
 
 /// What is neither a parameter nor a buffer, but belongs to the state.
-std::vector<at::Tensor> Gan::state() {
+std::vector<at::Tensor> Gan::optimiser_state() {
     std::vector<at::Tensor> all{generator_adam_.squares(), discriminator_adam_.squares()};
     for (auto* adam : {&generator_adam_, &discriminator_adam_})
         if (adam->means().defined()) all.push_back(adam->means());
-    if (shown_parameters_) all.push_back(shown_parameters_->values());
+    if (ema_parameters_) all.push_back(ema_parameters_->values());
     return all;
 }
 
-std::vector<Array> Gan::arrays() {
+std::vector<Array> Gan::state() {
     auto all = arrays_of(*generator_, "generator.");
     for (auto& array : arrays_of(*discriminator_, "discriminator.")) all.push_back(std::move(array));
     std::size_t i = 0;
-    for (const auto& tensor : state()) all.push_back(array_of(fmt::format("state.{}", i++), tensor));
+    for (const auto& tensor : optimiser_state())
+        all.push_back(array_of(fmt::format("state.{}", i++), tensor));
     return all;
 }
 
@@ -165,11 +140,9 @@ void Gan::load(const std::vector<Array>& arrays, std::uint64_t steps, const std:
     load_arrays(*generator_, "generator.", arrays, where);
     load_arrays(*discriminator_, "discriminator.", arrays, where);
     std::size_t i = 0;
-    for (const auto& tensor : state()) {
+    for (const auto& tensor : optimiser_state()) {
         const auto name = fmt::format("state.{}", i++);
-        const auto found = std::ranges::find(arrays, name, &Array::name);
-        if (found == arrays.end()) throw Error("{}: holds no '{}'", where, name);
-        copy_into(tensor, *found, where);
+        copy_into(tensor, array_named(arrays, name, where), where);
     }
 }
 
@@ -185,7 +158,7 @@ void Gan::share(std::uint64_t steps) {
     processes_.share(discriminator_parameters_.values());
     for (auto& tensor : generator_->buffers()) processes_.share(tensor);
     for (auto& tensor : discriminator_->buffers()) processes_.share(tensor);
-    for (auto& tensor : state()) processes_.share(tensor);
+    for (auto& tensor : optimiser_state()) processes_.share(tensor);
 }
 
 }  // namespace actformer::model

@@ -3,6 +3,7 @@
 
 #include <torch/nn/module.h>
 
+#include "model/generators/actformer/layers.hpp"
 #include "model/nn/weight_store.hpp"
 
 namespace actformer::model {

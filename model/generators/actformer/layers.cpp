@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <functional>
-#include <numeric>
 
 namespace actformer::model {
 namespace {
@@ -91,10 +89,6 @@ std::string layer_name(std::size_t i) {
 }
 
 }  // namespace
-
-std::int64_t NetworkWeight::count() const {
-    return std::accumulate(shape.begin(), shape.end(), std::int64_t{1}, std::multiplies<>());
-}
 
 std::int64_t trained_count(const std::vector<NetworkWeight>& weights) {
     return trained_under(weights, "");

@@ -7,32 +7,9 @@
 
 #include "model/generators/actformer/coarsening.hpp"
 #include "model/generators/actformer/settings.hpp"
-#include "model/recognisers/stgcn.hpp"
+#include "model/nn/network.hpp"
 
 namespace actformer::model {
-
-/// How a weight of ActFormer starts.
-enum class Begin {
-    uniform,     ///< within one over the root of the inputs to an output, `reach`
-    normal,      ///< of deviation `reach`
-    orthogonal,  ///< rows or columns
-    zeros,
-    ones,
-    tiling,  ///< (frames, persons, width): a normal table over frames beside one over persons, deviation `reach`
-    sinusoids  ///< the same of sines and cosines
-};
-
-struct NetworkWeight {
-    std::string name;  ///< the layer's, a dot, "weight" or "bias"; or the name of a table
-    std::vector<std::int64_t> shape;
-    Begin begin = Begin::uniform;
-    double reach = 0;
-    bool spectral = false;  ///< divided by its largest singular value as a matrix of `rows` rows
-    std::int64_t rows = 0;
-    bool trained = true;
-
-    std::int64_t count() const;
-};
 
 /// One graph convolution of the discriminator: every (hop, input node) has its own temporal convolution, summed into the
 /// output nodes by `sums`. Its weight is (inputs, hops, out, taps, in).

@@ -1,5 +1,5 @@
-// The prior's draws (DESIGN 4.4): what a draw holds is a function of seed, index and place alone, whatever the device,
-// the threads or the batch. Includes torch headers.
+// The prior's latents, Gaussian processes over frames. A latent is a function of seed, index and
+// place alone, whatever the device, the threads or the batch. Includes torch headers.
 #pragma once
 
 #include <ATen/ATen.h>

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <functional>
 
-#include "model/cpu/blas.hpp"
 #include "model/cpu/layer_clock.hpp"
 #include "model/generators/actformer/gan.hpp"
-#include "model/generators/actformer/motion_maker.hpp"
+#include "model/generators/actformer/maker.hpp"
+#include "model/nn/blas.hpp"
 
 namespace actformer::model {
 namespace {
@@ -49,10 +49,13 @@ struct SpeedTest::Parts {
 
 namespace {
 
+Config presets() {
+    return {"actformer", network_keys()};
+}
+
 GanSettings settings_of(const SpeedRequest& request) {
-    auto settings = gan_settings(generator_config());
+    GanSettings settings;
     settings.frames = request.frames;
-    settings.batch = request.batch;
     return settings;
 }
 
@@ -60,12 +63,11 @@ GanSettings settings_of(const SpeedRequest& request) {
 
 SpeedTest::Parts::Parts(const SpeedRequest& wanted)
     : request(wanted),
-      generator(generator_settings(generator_config(), ingest::ntu25(), wanted.persons, wanted.classes, 3,
-                                   "speed")),
-      discriminator(discriminator_settings(generator_config(), ingest::ntu25(), wanted.persons,
-                                           wanted.classes, 3, "speed")),
+      generator(generator_settings(presets(), ingest::ntu25(), wanted.persons, wanted.classes, 3, "speed")),
+      discriminator(
+          discriminator_settings(presets(), ingest::ntu25(), wanted.persons, wanted.classes, 3, "speed")),
       gan(settings_of(wanted), generator, discriminator, at::kCPU, processes),
-      maker(gan.generator(), 0, wanted.frames),
+      maker(gan.generator(), 0),
       real(at::randn({wanted.batch, 3 * wanted.persons, wanted.frames, generator.joints()})),
       labels(at::randint(wanted.classes, {wanted.batch}, at::kLong)) {}
 
@@ -87,7 +89,7 @@ void SpeedTest::run(int rounds) {
         time_into(p.generator_step, [&] { p.gan.step_generator(p.labels, p.draw++); });
         time_into(p.generation, [&] {
             for (std::uint32_t n = 0; n < motions_timed / MotionMaker::chunk; ++n)
-                p.maker.make(static_cast<std::uint32_t>(p.draw++ % p.request.classes), n);
+                p.maker.make(static_cast<std::uint32_t>(p.draw++ % p.request.classes), n, p.request.frames);
         });
     }
 }

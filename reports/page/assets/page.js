@@ -79,7 +79,7 @@ const CURVES = {
     { title: "loss", series: [{ key: "discriminator_loss", name: "discriminator", colour: 1 },
       { key: "generator_loss", name: "generator", colour: 2 }] },
     { title: "discriminator’s score", series: [{ key: "real_score", name: "of real motions", colour: 4 },
-      { key: "made_score", name: "of generated motions", colour: 2 }] },
+      { key: "fake_score", name: "of generated motions", colour: 2 }] },
     { title: "accuracy", unit: " %", scale: 100, fromZero: true, series: [{ key: "accuracy", name: "of generated motions", colour: 3 }] },
     { title: "FID", fromZero: true, series: [{ key: "fid_whole", name: "whole set", colour: 2 }] },
   ],

@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "ingest/dataset/motions_file.hpp"
-#include "model/nn/weights_file.hpp"
+#include "model/recognisers/stgcn_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
 

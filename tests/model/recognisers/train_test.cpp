@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/hdf5/reader.hpp"
+#include "tests/support/checkpoints.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/run_log.hpp"
 #include "tests/support/temp_dir.hpp"
@@ -23,7 +24,7 @@ struct TrainRecogniser : testing::Test {
     void SetUp() override {
         write_file(dir / "toy.yaml",
                    "model: recogniser\nwidth: 0.25\nframes: 16\nbatch: 12\nepochs: 3\nrate_drops: []\n"
-                   "train_split: s/train\ntest_split: s/test\nseed: 4\nthreads: 1\n");
+                   "train_split: s/train\ntest_split: s/test\nseed: 4\nthreads: 1\ncheckpoint_minutes: 0\n");
     }
     std::string line(const std::string& run, const std::string& more = "") const {
         return "train recogniser -c " + (dir / "toy.yaml").string() + " --data " + toy().string() + " -o " +
@@ -72,14 +73,15 @@ TEST_F(TrainRecogniser, TellsToyClassesApart) {
 
 TEST_F(TrainRecogniser, GoesOnAfterAKillToTheSameBits) {
     ASSERT_EQ(train("whole", "threads=2").exit, 0);
-    for (const std::string moment :
-         {"log.jsonl", "weights-last.h5", "checkpoint-00001", "checkpoint-00002"}) {
+    for (const std::string moment : {"log.jsonl", "weights-last.h5", "checkpoint-00001.h5",
+                                     "checkpoint-00004.h5", "checkpoint-00006.h5"}) {
         train_and_kill("killed", moment);
         const auto again = train("killed", "threads=2");
         ASSERT_EQ(again.exit, 0) << again.output;
-        for (const std::string file : {"weights-last.h5", "weights-best.h5", "checkpoint-00003"})
+        for (const std::string file : {"weights-last.h5", "weights-best.h5"})
             EXPECT_EQ(read_file(dir / ("whole/" + file)), read_file(dir / ("killed/" + file)))
                 << moment << ", " << file;
+        expect_same_checkpoint(dir / "whole/checkpoint-00009.h5", dir / "killed/checkpoint-00009.h5");
         EXPECT_EQ(epochs_logged(dir / "killed"), 3U);
         fs::remove_all(dir / "killed");
     }
@@ -90,19 +92,19 @@ TEST_F(TrainRecogniser, GoesOnInFloat64ToTheSameBits) {
     ASSERT_EQ(train("halted", "precision=float64 epochs=1").exit, 0);
     expect_refused(train("halted", "epochs=2"), {"precision is \"float64\" there and \"float32\" here"});
     ASSERT_EQ(train("halted", "precision=float64 epochs=2").exit, 0);
-    for (const std::string file : {"weights-last.h5", "checkpoint-00002"})
-        EXPECT_EQ(read_file(dir / ("whole/" + file)), read_file(dir / ("halted/" + file))) << file;
+    EXPECT_EQ(read_file(dir / "whole/weights-last.h5"), read_file(dir / "halted/weights-last.h5"));
+    expect_same_checkpoint(dir / "whole/checkpoint-00006.h5", dir / "halted/checkpoint-00006.h5");
 }
 
 TEST_F(TrainRecogniser, GoesBackBehindATruncatedCheckpoint) {
     ASSERT_EQ(train("run").exit, 0);
     const auto weights = read_file(dir / "run/weights-last.h5");
-    fs::resize_file(dir / "run/checkpoint-00003", 5000);
+    fs::resize_file(dir / "run/checkpoint-00009.h5", 5000);
     const auto again = train("run");
     EXPECT_EQ(again.exit, 0) << again.output;
-    EXPECT_NE(again.output.find("checkpoint-00003: cut short or damaged; going back to the one before"),
+    EXPECT_NE(again.output.find("checkpoint-00009.h5: cut short or damaged; going back to the one before"),
               std::string::npos);
-    EXPECT_NE(again.output.find("going on after epoch 2 of 3"), std::string::npos) << again.output;
+    EXPECT_NE(again.output.find("going on after step 8, in epoch 3 of 3"), std::string::npos) << again.output;
     EXPECT_EQ(read_file(dir / "run/weights-last.h5"), weights);
 }
 

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "base/error.hpp"
+#include "base/hdf5/reader.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer::model;
@@ -11,18 +14,19 @@ using namespace actformer::test;
 
 namespace {
 
-Checkpoint sample(std::uint64_t done) {
-    return {done,
+Checkpoint sample(std::uint64_t step) {
+    return {step,
             {{"model", "toy"}, {"best", 0.25}},
-            {{"a", {2, 2}, std::vector<float>{1, 2, 3, static_cast<float>(done)}},
+            {{"a", {2, 2}, std::vector<float>{1, 2, 3, static_cast<float>(step)}},
              {"exact", {2}, std::vector<double>{1. / 3, -5e-300}},
              {"b", {}, std::vector<float>{5}}}};
 }
 
-void expect_same(const Checkpoint& a, const Checkpoint& b) {
-    EXPECT_EQ(a.done, b.done);
+void expect_same(Checkpoint a, Checkpoint b) {
+    EXPECT_EQ(a.step, b.step);
     EXPECT_EQ(a.state, b.state);
     ASSERT_EQ(a.arrays.size(), b.arrays.size());
+    for (auto* checkpoint : {&a, &b}) std::ranges::sort(checkpoint->arrays, {}, &Array::name);
     for (std::size_t i = 0; i < a.arrays.size(); ++i) {
         EXPECT_EQ(a.arrays[i].name, b.arrays[i].name);
         EXPECT_EQ(a.arrays[i].shape, b.arrays[i].shape);
@@ -30,22 +34,42 @@ void expect_same(const Checkpoint& a, const Checkpoint& b) {
     }
 }
 
+const auto no_notes = [](const std::string& line) { ADD_FAILURE() << line; };
+
 }  // namespace
 
 TEST(Checkpoint, ComesBackWhole) {
-    const auto back = checkpoint_from(to_bytes(sample(3)));
+    const TempDir dir;
+    save_checkpoint(dir.path(), sample(3));
+    const auto back = read_checkpoint(dir / "checkpoint-00003.h5");
     ASSERT_TRUE(back);
     expect_same(*back, sample(3));
 }
 
 TEST(Checkpoint, NeverComesBackInPart) {
-    const auto bytes = to_bytes(sample(3));
-    for (std::size_t n = 0; n < bytes.size(); ++n) {
-        EXPECT_FALSE(checkpoint_from(bytes.substr(0, n))) << n;
+    const TempDir dir;
+    save_checkpoint(dir.path(), sample(3));
+    const auto bytes = read_file(dir / "checkpoint-00003.h5");
+    const auto comes_back = [&](const std::string& text) {
+        write_file(dir / "other.h5", text);
+        return read_checkpoint(dir / "other.h5").has_value();
+    };
+    ASSERT_TRUE(comes_back(bytes));
+    for (std::size_t n = 0; n < bytes.size(); n += n < 64 || n + 64 > bytes.size() ? 1 : 7) {
+        EXPECT_FALSE(comes_back(bytes.substr(0, n))) << n;
         auto damaged = bytes;
         damaged[n] = static_cast<char>(damaged[n] ^ 1);
-        EXPECT_FALSE(checkpoint_from(damaged)) << n;
+        EXPECT_FALSE(comes_back(damaged)) << n;
     }
+}
+
+TEST(Checkpoint, IsAFileThatHdf5Reads) {
+    const TempDir dir;
+    save_checkpoint(dir.path(), sample(3));
+    const actformer::hdf5::Reader file(dir / "checkpoint-00003.h5");
+    EXPECT_EQ(file.read<float>("a"), (std::vector<float>{1, 2, 3, 3}));
+    EXPECT_EQ(file.read<double>("exact"), (std::vector<double>{1. / 3, -5e-300}));
+    EXPECT_EQ(file.attribute_numbers("step"), std::vector<std::int64_t>{3});
 }
 
 TEST(Checkpoint, TheOneBeforeIsKeptAndUsed) {
@@ -53,17 +77,17 @@ TEST(Checkpoint, TheOneBeforeIsKeptAndUsed) {
     std::vector<std::string> notes;
     const auto note = [&](const std::string& line) { notes.push_back(line); };
     EXPECT_FALSE(newest_checkpoint(dir.path(), "toy", note));
-    for (const std::uint64_t done : {99998, 99999, 100000}) save_checkpoint(dir.path(), sample(done));
-    EXPECT_FALSE(std::filesystem::exists(dir / "checkpoint-99998"));
+    for (const std::uint64_t step : {99998, 99999, 100000}) save_checkpoint(dir.path(), sample(step));
+    EXPECT_FALSE(std::filesystem::exists(dir / "checkpoint-99998.h5"));
     expect_same(*newest_checkpoint(dir.path(), "toy", note), sample(100000));
     EXPECT_TRUE(notes.empty());
 
-    std::filesystem::resize_file(dir / "checkpoint-100000", 100);
+    std::filesystem::resize_file(dir / "checkpoint-100000.h5", 100);
     expect_same(*newest_checkpoint(dir.path(), "toy", note), sample(99999));
     ASSERT_EQ(notes.size(), 1U);
     EXPECT_NE(notes[0].find("going back to the one before"), std::string::npos);
 
-    write_file(dir / "checkpoint-99999", "");
+    write_file(dir / "checkpoint-99999.h5", "");
     EXPECT_FALSE(newest_checkpoint(dir.path(), "toy", note));
     ASSERT_EQ(notes.size(), 2U);
     EXPECT_NE(notes[1].find("starting anew"), std::string::npos);
@@ -71,14 +95,20 @@ TEST(Checkpoint, TheOneBeforeIsKeptAndUsed) {
 
 TEST(Checkpoint, DamagedOnesAreSetAsideAndForeignOnesRefused) {
     TempDir dir;
-    const auto note = [](const std::string&) {};
-    write_file(dir / "checkpoint-00003", "PK not one of ours");
-    EXPECT_FALSE(newest_checkpoint(dir.path(), "toy", note));
-    EXPECT_EQ(read_file(dir / "checkpoint-00003.damaged"), "PK not one of ours");
+    write_file(dir / "checkpoint-00003.h5", "PK not one of ours");
+    EXPECT_FALSE(newest_checkpoint(dir.path(), "toy", [](const std::string&) {}));
+    EXPECT_EQ(read_file(dir / "checkpoint-00003.h5.damaged"), "PK not one of ours");
 
     save_checkpoint(dir.path(), sample(4));
-    EXPECT_THROW(newest_checkpoint(dir.path(), "generator", note), actformer::Error);
-    write_file(dir / "checkpoint-00005", "actformer checkpoint 9\nwhat versions to come may write");
-    EXPECT_THROW(newest_checkpoint(dir.path(), "toy", note), actformer::Error);
+    EXPECT_THROW(newest_checkpoint(dir.path(), "actformer", no_notes), actformer::Error);
+    write_file(dir / "checkpoint-00005", "actformer checkpoint 2\nbefore it was HDF5");
+    try {
+        newest_checkpoint(dir.path(), "toy", no_notes);
+        ADD_FAILURE() << "taken";
+    } catch (const actformer::Error& e) {
+        EXPECT_NE(std::string(e.what()).find("checkpoint-00005: written by an earlier version"),
+                  std::string::npos)
+            << e.what();
+    }
     EXPECT_TRUE(std::filesystem::exists(dir / "checkpoint-00005"));
 }

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
-#include "model/generators/actformer/gan_settings.hpp"
 #include "model/generators/actformer/layers.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
@@ -20,7 +19,7 @@ namespace {
 const std::string configs = source("model/configs/");
 
 Config with(const std::vector<std::string>& assignments) {
-    auto config = generator_config();
+    Config config("actformer", network_keys());
     for (const auto& assignment : assignments) config.override_with(assignment);
     return config;
 }

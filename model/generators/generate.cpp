@@ -1,13 +1,14 @@
-#include "model/generators/actformer/generate.hpp"
+#include "model/generators/generate.hpp"
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "base/error.hpp"
+#include "ingest/dataset/layout.hpp"
 #include "ingest/dataset/motions_file.hpp"
-#include "model/cpu/blas.hpp"
-#include "model/generators/actformer/generator_file.hpp"
-#include "model/generators/actformer/motion_maker.hpp"
+#include "model/generators/generator_file.hpp"
+#include "model/nn/blas.hpp"
 #include "model/train/training.hpp"
 
 namespace actformer::model {
@@ -30,26 +31,21 @@ std::vector<std::uint32_t> labels_wanted(const GenerateRequest& request, const G
     return labels;
 }
 
-std::uint32_t frames_wanted(const GenerateRequest& request, const GeneratorFile& file) {
-    const auto most = file.network->settings().frames;
+std::uint32_t frames_wanted(const GenerateRequest& request, std::uint32_t most) {
     if (request.frames > most)
         throw Error("{}: --frames {}, but it was made for at most {}; train one with frames={}",
                     request.generator.string(), request.frames, most, request.frames);
     return request.frames == 0 ? most : request.frames;
 }
 
-/// One of `made` (n, P*D, T, K) with persons side by side, as a motion.
-ingest::Motion motion_of(const at::Tensor& made, std::int64_t sample, std::uint32_t persons) {
-    const auto one = made[sample];
+/// Of what a network gives for one motion, (P*D, T, K).
+ingest::Motion motion_of(std::span<const float> values, const GenerateSummary& shape) {
     ingest::Motion motion;
-    motion.persons = persons;
-    motion.frames = static_cast<std::uint32_t>(one.size(1));
-    motion.nodes = static_cast<std::uint32_t>(one.size(2));
-    motion.numbers = static_cast<std::uint32_t>(one.size(0)) / persons;
-    const auto values =
-        one.view({persons, -1, one.size(1), one.size(2)}).permute({2, 0, 3, 1}).contiguous();  // (T, P, K, D)
-    const auto* first = values.data_ptr<float>();
-    motion.values.assign(first, first + values.numel());
+    motion.frames = shape.frames;
+    motion.persons = shape.persons;
+    motion.nodes = shape.nodes;
+    motion.numbers = shape.numbers;
+    ingest::take_channels_first(values, motion);
     return motion;
 }
 
@@ -65,21 +61,26 @@ GenerateSummary generate_here(const GenerateRequest& request,
                               const std::function<void(std::uint64_t, std::uint64_t)>& tell) {
     const auto file = load_generator(request.generator);
     const auto labels = labels_wanted(request, file);
-    GenerateSummary summary{0, static_cast<std::uint32_t>(labels.size()), file.subjects.persons,
-                            static_cast<std::uint32_t>(file.subjects.topology.joints()),
-                            frames_wanted(request, file)};
-    file.network->to(torch_device(request.device));
-    const MotionMaker maker(*file.network, request.seed, summary.frames);
+    const auto maker = file.maker(request.device);
+    const auto spec = spec_of(file.subjects, request.generator.string());
+    GenerateSummary summary{0,
+                            static_cast<std::uint32_t>(labels.size()),
+                            spec.persons,
+                            spec.nodes(),
+                            frames_wanted(request, maker->most_frames()),
+                            spec.numbers()};
     ingest::MotionsWriter writer(request.out);
     describe(writer, request, file);
     const auto all = std::uint64_t{request.per_class} * labels.size();
+    const auto batch = maker->batch();
     for (const auto label : labels)
-        for (std::uint32_t first = 0; first < request.per_class; first += MotionMaker::chunk) {
-            const auto made = maker.make(label, first / MotionMaker::chunk);
-            const auto count = std::min(MotionMaker::chunk, request.per_class - first);
+        for (std::uint32_t first = 0; first < request.per_class; first += batch) {
+            const auto motions = maker->make(request.seed, label, first / batch, summary.frames);
+            const auto count = std::min(batch, request.per_class - first);
+            const auto one = motions.size() / batch;
             for (std::uint32_t i = 0; i < count; ++i, ++summary.motions)
                 writer.add(fmt::format("A{:03}_{}", label + 1, first + i),
-                           motion_of(made, i, file.subjects.persons));
+                           motion_of(std::span(motions).subspan(i * one, one), summary));
             if (tell) tell(summary.motions, all);
         }
     writer.finish();

@@ -1,4 +1,4 @@
-#include "model/cpu/blas.hpp"
+#include "model/nn/blas.hpp"
 
 #include <ATen/ATen.h>
 #include <ATen/Parallel.h>

@@ -14,9 +14,10 @@
 #include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/motions_file.hpp"
-#include "model/generators/actformer/gan_settings.hpp"
-#include "model/generators/actformer/generator_trainer.hpp"
+#include "model/generators/method.hpp"
+#include "model/generators/train_generator.hpp"
 #include "model/train/checkpoint.hpp"
+#include "tests/support/checkpoints.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/run_log.hpp"
 #include "tests/support/toy_dataset.hpp"
@@ -29,7 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* tiny =
-    "model: generator\nframes: 16\nwidth: 16\nheads: 2\ndepth: 1\nlatent: 8\nd_width: 2\nbatch: 6\nepochs: "
+    "model: actformer\nframes: 16\nwidth: 16\nheads: 2\ndepth: 1\nlatent: 8\nd_width: 2\nbatch: 6\nepochs: "
     "4\n"
     "train_split: s/train\nseed: 4\nthreads: 1\ncheckpoint_minutes: 0\n";
 
@@ -55,27 +56,6 @@ struct TrainGenerator : testing::Test {
     TempDir dir;
 };
 
-/// Name of the newest checkpoint.
-std::string newest(const fs::path& run) {
-    std::string name;
-    for (const auto& entry : fs::directory_iterator(run))
-        if (entry.path().filename().string().starts_with("checkpoint-"))
-            name = std::max(name, entry.path().filename().string());
-    return name;
-}
-
-/// The state of a checkpoint, the time it took apart, and the numbers behind it.
-std::pair<nlohmann::json, std::string> state_of(const fs::path& checkpoint) {
-    std::istringstream text(read_file(checkpoint));
-    std::string kind, checksum, head;
-    std::getline(text, kind);
-    std::getline(text, checksum);
-    std::getline(text, head);
-    auto json = nlohmann::json::parse(head);
-    json["state"].erase("seconds");
-    return {json, std::string(std::istreambuf_iterator<char>(text), {})};
-}
-
 }  // namespace
 
 TEST_F(TrainGenerator, GoesOnAfterAKillToTheSameBits) {
@@ -96,7 +76,7 @@ TEST_F(TrainGenerator, GoesOnAfterAKillToTheSameBits) {
         EXPECT_EQ(newest(dir / "killed"), last);
         for (const std::string file : {"weights-last.h5", "weights-average.h5", "weights-best.h5"})
             EXPECT_EQ(read_file(dir / ("whole/" + file)), read_file(dir / ("killed/" + file))) << file;
-        EXPECT_EQ(state_of(dir / "whole" / last), state_of(dir / "killed" / last));
+        expect_same_checkpoint(dir / "whole" / last, dir / "killed" / last);
         const auto a = log_of(dir / "whole"), b = log_of(dir / "killed");
         ASSERT_EQ(a.size(), b.size());
         fs::remove_all(dir / "killed");
@@ -110,9 +90,7 @@ TEST_F(TrainGenerator, RatesDropAtTheEpochsNamed) {
     ASSERT_EQ(train("low", low).exit, 0);
     ASSERT_EQ(train("dropped", high + "rate_drops=[0] rate_factor=0.25").exit, 0);
     ASSERT_EQ(train("later", high + "rate_drops=[1] rate_factor=0.25").exit, 0);
-    const auto numbers = [&](const std::string& run) {
-        return state_of(dir / run / newest(dir / run)).second;
-    };
+    const auto numbers = [&](const std::string& run) { return numbers_of(dir / run / newest(dir / run)); };
     EXPECT_EQ(numbers("low"), numbers("dropped"));
     EXPECT_NE(numbers("low"), numbers("later")) << "its first epoch goes at the higher rate";
 }
@@ -201,15 +179,15 @@ TEST_F(TrainGenerator, GoesBackBehindDamagedCheckpointsAndRefusesForeignOnes) {
     EXPECT_EQ(read_file(dir / "run/weights-last.h5"), weights);
     EXPECT_TRUE(fs::exists(dir / "run" / (last + ".damaged")));
 
-    write_file(dir / "run/checkpoint-99999", "actformer checkpoint 1\nof an earlier version");
-    expect_refused(train("run", "epochs=2"), {"checkpoint-99999", "another version"});
+    write_file(dir / "run/checkpoint-99999", "actformer checkpoint 2\nof an earlier version");
+    expect_refused(train("run", "epochs=2"), {"checkpoint-99999", "an earlier version", "another -o"});
 }
 
 TEST_F(TrainGenerator, StopsWhereTheLossesAreNoNumbers) {
     ASSERT_EQ(train("run", "epochs=1").exit, 0);
     const auto good = newest(dir / "run");
-    auto checkpoint = *model::newest_checkpoint(dir / "run", "generator", [](const std::string&) {});
-    checkpoint.done += 1;
+    auto checkpoint = *model::newest_checkpoint(dir / "run", "actformer", [](const std::string&) {});
+    checkpoint.step += 1;
     std::get<std::vector<float>>(checkpoint.arrays[0].values)[0] = std::nanf("");
     model::save_checkpoint(dir / "run", checkpoint);
     const auto bad = newest(dir / "run");
@@ -333,16 +311,15 @@ TEST_F(Generate, RefusesWhatItCannotMake) {
 namespace {
 
 /// Trains in this process, and gives the last epoch.
-model::GeneratorEpoch trained(const fs::path& data, const fs::path& run,
-                              const std::vector<std::string>& keys) {
-    auto config = model::generator_config();
+model::EpochReport trained(const fs::path& data, const fs::path& run, const std::vector<std::string>& keys) {
+    auto config = model::generator_config(model::methods().front());
     config.load_text(tiny, "tiny");
     config.override_with("data=" + data.string());
     config.override_with("checkpoint_minutes=10");
     for (const auto& key : keys) config.override_with(key);
-    model::GeneratorEpoch last;
-    model::GeneratorEvents events;
-    events.epoch = [&](const model::GeneratorEpoch& epoch) { last = epoch; };
+    model::EpochReport last;
+    model::TrainingEvents events;
+    events.epoch = [&](const model::EpochReport& epoch) { last = epoch; };
     const auto result = model::train_generator(config, run, false, events);
     EXPECT_EQ(result.steps, last.step);
     return last;
@@ -373,8 +350,9 @@ TEST_P(EverySwitch, Trains) {
     }
     const auto last = trained(GetParam().pairs ? toy_pairs() : toy(), dir / "run", keys);
     EXPECT_GE(last.step, 100U);
-    EXPECT_TRUE(std::isfinite(last.discriminator_loss) && std::isfinite(last.generator_loss));
-    EXPECT_NE(last.real_score, last.made_score);
+    const auto of = [&](const char* key) { return model::value_of(last.losses, key); };
+    EXPECT_TRUE(std::isfinite(of("discriminator_loss")) && std::isfinite(of("generator_loss")));
+    EXPECT_NE(of("real_score"), of("fake_score"));
 }
 
 INSTANTIATE_TEST_SUITE_P(

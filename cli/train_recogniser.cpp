@@ -1,0 +1,69 @@
+// actformer train recogniser: trains the ST-GCN in a run folder.
+#include "model/recognisers/train_recogniser.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/training_options.hpp"
+
+namespace actformer::cli {
+namespace {
+
+nlohmann::ordered_json to_json(const model::RecogniserResult& result) {
+    const auto& training = result.training;
+    nlohmann::ordered_json json{{"epochs", training.epochs}, {"weights", training.weights.string()}};
+    if (training.best) {
+        json["best_epoch"] = training.best->epoch;
+        json["best_weights"] = training.best_weights.string();
+        json["best_class_accuracy"] = training.best->values.at("class_accuracy");
+        json["class_accuracy"] = result.confusion.mean_class_accuracy();
+        json["sample_accuracy"] = result.confusion.sample_accuracy();
+        json["classes"] = result.classes;
+        json["confusion"] = result.confusion.rows();
+    }
+    return json;
+}
+
+void print_text(const model::RecogniserResult& result, const std::string& split) {
+    const auto& training = result.training;
+    if (result.confusion.samples() > 0)
+        fmt::print(
+            "{}accuracy on {}: {:.2f} %, the mean over classes of the windows recognised ({:.2f} % of all "
+            "{})\n",
+            result.confusion.table(result.classes), split, 100 * result.confusion.mean_class_accuracy(),
+            100 * result.confusion.sample_accuracy(), result.confusion.samples());
+    fmt::print("{}: after epoch {}\n", training.weights.string(), training.epochs);
+    if (training.best)
+        fmt::print("{}: after epoch {}, {:.2f} %\n", training.best_weights.string(), training.best->epoch,
+                   100 * training.best->values.at("class_accuracy").get<double>());
+}
+
+void run(const TrainingOptions& options) {
+    const auto config = options.read(model::recogniser_config());
+    TrainingDisplay display(config.get<std::int64_t>("epochs"));
+    const auto result = model::train_recogniser(config, options.run, display.events());
+    display.clear();
+    if (options.json)
+        fmt::print("{}\n", to_json(result).dump(2));
+    else
+        print_text(result, config.get<std::string>("test_split"));
+}
+
+}  // namespace
+
+void add_train_recogniser(CLI::App& train) {
+    auto options = std::make_shared<TrainingOptions>();
+    auto* command = train.add_subcommand("recogniser", "Train the ST-GCN action recogniser");
+    add_training_options(command, *options);
+    examples(command,
+             "  actformer train recogniser -c model/configs/recogniser-ntu-1p.yaml --data ntu/ntu-1p -o "
+             "recogniser\n"
+             "  actformer train recogniser -c model/configs/recogniser-small.yaml --data bnr10 -o small "
+             "train_split=xstyle/test test_split=xstyle/train epochs=10\n");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace actformer::cli

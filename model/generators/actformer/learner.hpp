@@ -1,0 +1,40 @@
+// ActFormer in the training loop. Includes torch headers.
+#pragma once
+
+#include "model/generators/actformer/gan.hpp"
+#include "model/train/learner.hpp"
+#include "model/train/window_feed.hpp"
+
+namespace actformer::model {
+
+/// A step is one of the generator's behind `discriminator_steps` of the discriminator's, each with windows of its own.
+class ActformerLearner : public Learner {
+  public:
+    ActformerLearner(const Config& config, const GeneratorSettings& generator,
+                     const DiscriminatorSettings& discriminator, const LearnerSetup& setup);
+
+    std::uint64_t windows_a_step() const override;
+    void step(std::uint64_t step, double rate_share) override;
+    at::Tensor& sums() override { return gan_.sums(); }
+    Measures losses(const std::vector<double>& sums, std::uint64_t steps) const override;
+    std::string trouble(const Measures& losses) const override;
+    bool finite() override { return gan_.finite(); }
+    std::vector<Array> state() override { return gan_.state(); }
+    void load(const std::vector<Array>& state, std::uint64_t steps, const std::string& where) override {
+        gan_.load(state, steps, where);
+    }
+    void share(std::uint64_t steps) override { gan_.share(steps); }
+    std::vector<Array> weights() override;
+    bool keeps_ema() const override { return settings_.average > 0; }
+    std::vector<Array> ema_weights() override;
+
+  private:
+    GanSettings settings_;
+    DiscriminatorSettings motions_;
+    std::uint32_t batch_;
+    at::Device device_;
+    RandomFeed feed_;
+    Gan gan_;
+};
+
+}  // namespace actformer::model

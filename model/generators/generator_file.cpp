@@ -1,0 +1,65 @@
+#include "model/generators/generator_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/checksum/checksum.hpp"
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "base/hdf5/reader.hpp"
+#include "eval/run_weights.hpp"
+#include "model/nn/weights_file.hpp"
+
+namespace actformer::model {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const hdf5::Reader& file, const std::string& name, const std::string& where) {
+    const auto texts = file.attribute_texts(name);
+    if (texts.size() != 1) throw Error("{}: attribute '{}' is not one text: damaged", where, name);
+    return texts[0];
+}
+
+std::vector<Array> read_weights(const hdf5::Reader& file, const std::string& where) {
+    std::vector<Array> weights;
+    for (const auto& name : file.names()) {
+        const auto shape = file.shape(name);
+        auto values = file.read<float>(name);
+        if (!std::ranges::all_of(values, [](float v) { return std::isfinite(v); }))
+            throw Error("{}: '{}' holds numbers that are not finite; take earlier weights", where, name);
+        weights.push_back({name, {shape.begin(), shape.end()}, std::move(values)});
+    }
+    return weights;
+}
+
+}  // namespace
+
+void save_generator(const fs::path& path, const std::vector<Array>& weights, const Config& config,
+                    const ingest::Subjects& subjects, const std::map<std::string, std::string>& notes) {
+    auto file = weights_writer(weights);
+    file.attribute("model", config.model());
+    file.attribute("configuration", config.yaml());
+    ingest::write_subjects(file, subjects);
+    for (const auto& [name, text] : notes) file.attribute(name, text);
+    file.image([&](std::string_view image) { write_whole(path, image); });
+}
+
+std::unique_ptr<Maker> GeneratorFile::maker(const std::string& device) const {
+    return method().maker(configuration, spec_of(subjects, path.string()), weights, device);
+}
+
+GeneratorFile load_generator(const fs::path& path) {
+    const auto at = eval::weights_of(path);
+    const auto where = at.string();
+    const hdf5::Reader file(at);
+    if (!file.has_attribute("model") || !file.has_attribute("configuration"))
+        throw Error("{}: not the weights of a generator; give a generator's RUN or its weights-*.h5", where);
+    auto subjects = ingest::read_subjects(file, where);
+    if (!subjects) throw Error("{}: does not say whose motions it generates: damaged", where);
+    auto config = generator_config(method_named(text_of(file, "model", where), where));
+    config.load_text(text_of(file, "configuration", where), where);
+    return {at, std::move(config), std::move(*subjects), checksum_file(at), read_weights(file, where)};
+}
+
+}  // namespace actformer::model

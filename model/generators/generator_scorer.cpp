@@ -1,0 +1,66 @@
+#include "model/generators/generator_scorer.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "model/train/training.hpp"
+
+namespace actformer::model {
+namespace {
+
+constexpr std::uint64_t scoring_draws = 2;  // of step_seed: neither the latents' nor the discriminator's
+
+std::vector<std::uint32_t> classes_of(const kernels::ClipStore& clips) {
+    const auto& labels = clips.table().labels;
+    const std::set<std::uint32_t> each(labels.begin(), labels.end());
+    return {each.begin(), each.end()};
+}
+
+}  // namespace
+
+GeneratorScorer::GeneratorScorer(const Config& config, const MotionSpec& spec, const ingest::Dataset& dataset,
+                                 const kernels::ClipStore& clips, std::string device)
+    : config_(config),
+      spec_(spec),
+      settings_(generator_trainer_settings(config)),
+      device_(std::move(device)),
+      frames_(static_cast<std::uint32_t>(config.get<std::int64_t>("frames"))),
+      classes_(classes_of(clips)),
+      judge_(settings_.recogniser, settings_.opencl, dataset, clips, frames_) {}
+
+Labelled GeneratorScorer::motions_of(const std::vector<Array>& weights) const {
+    const auto maker = method_named(config_.model(), spec_.where).maker(config_, spec_, weights, device_);
+    const auto seed = step_seed(settings_.seed, scoring_draws);
+    const auto batch = maker->batch(), wanted = settings_.score_per_class;
+    Labelled all;
+    for (const auto label : classes_)
+        for (std::uint32_t i = 0; i * batch < wanted; ++i) {
+            const auto motions = maker->make(seed, label, i, frames_);
+            const std::size_t count = std::min(batch, wanted - i * batch), one = motions.size() / batch;
+            all.values.insert(all.values.end(), motions.begin(),
+                              motions.begin() + static_cast<std::ptrdiff_t>(count * one));
+            all.labels.insert(all.labels.end(), count, label);
+        }
+    return all;
+}
+
+void GeneratorScorer::begin(Learner& learner, std::uint64_t epoch, std::uint64_t step) {
+    scores_.report.epoch = epoch;
+    scores_.report.step = step;
+    scores_.weights = learner.keeps_ema() ? learner.ema_weights() : learner.weights();
+    judged_ = std::async(std::launch::async,
+                         [this, motions = motions_of(scores_.weights)] { return judge_.score(motions); });
+}
+
+std::optional<Scores> GeneratorScorer::end() {
+    if (!judged_.valid()) return std::nullopt;
+    const auto found = judged_.get();
+    scores_.report.values = {{"accuracy", found.accuracy},
+                             {"real_accuracy", judge_.real_accuracy()},
+                             {"fid_whole", found.fid_whole}};
+    if (found.fid_mean) scores_.report.values["fid_mean"] = *found.fid_mean;
+    scores_.merit = -found.fid_whole;
+    return std::move(scores_);
+}
+
+}  // namespace actformer::model

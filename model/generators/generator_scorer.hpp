@@ -1,0 +1,45 @@
+// Scores of a generator while it trains: its motions are made at once, and judged while training goes on. Includes torch
+// headers.
+#pragma once
+
+#include <future>
+
+#include "model/generators/generator_settings.hpp"
+#include "model/generators/method.hpp"
+#include "model/train/judge.hpp"
+#include "model/train/scorer.hpp"
+
+namespace actformer::model {
+
+class GeneratorScorer : public Scorer {
+  public:
+    /// As the settings say; `clips` are the training's split of `dataset`, and no motions are asked of classes without one.
+    /// Throws Error where the recogniser does not fit the dataset.
+    GeneratorScorer(const Config& config, const MotionSpec& spec, const ingest::Dataset& dataset,
+                    const kernels::ClipStore& clips, std::string device);
+
+    const Judge& judge() const { return judge_; }
+
+    bool due(std::uint64_t epoch, bool last) const override {
+        return last || epoch % settings_.score_every == 0;
+    }
+    void begin(Learner& learner, std::uint64_t epoch, std::uint64_t step) override;
+    std::optional<Scores> end() override;
+    bool in_background() const override { return true; }
+    std::string fingerprint() const override { return judge_.checksum(); }
+
+  private:
+    Labelled motions_of(const std::vector<Array>& weights) const;
+
+    const Config& config_;
+    MotionSpec spec_;
+    GeneratorTrainerSettings settings_;
+    std::string device_;  ///< of libtorch
+    std::uint32_t frames_;
+    std::vector<std::uint32_t> classes_;  ///< that have clips
+    Judge judge_;
+    Scores scores_;                    ///< on their way
+    std::future<JudgeScores> judged_;  ///< last, so that it is waited for before the judge goes
+};
+
+}  // namespace actformer::model

@@ -1,0 +1,23 @@
+// What a generator's training may be told whatever its method.
+#pragma once
+
+#include <string>
+
+#include "model/train/trainer_settings.hpp"
+
+namespace actformer::model {
+
+struct GeneratorTrainerSettings : TrainerSettings {
+    GeneratorTrainerSettings() {
+        epochs = 500;
+        rate_factor = 0.25;
+    }
+    std::string recogniser;                                 ///< empty: nothing is scored
+    std::uint32_t score_every = 10, score_per_class = 100;  ///< epochs; motions
+};
+
+std::vector<Key> generator_keys();
+
+GeneratorTrainerSettings generator_trainer_settings(const Config& config);
+
+}  // namespace actformer::model

@@ -1,0 +1,64 @@
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/text/printable.hpp"
+#include "model/generators/actformer/method.hpp"
+#include "model/generators/generator_settings.hpp"
+#include "model/generators/method.hpp"
+#include "model/train/learner.hpp"
+
+namespace actformer::model {
+
+const std::vector<Method>& methods() {
+    static const std::vector<Method> all{
+        actformer_method(),
+    };
+    return all;
+}
+
+namespace {
+
+/// What a file's line `model:` may say in place of a method's name: "generator" was ActFormer's before there were others.
+std::vector<std::string> other_names(const Method& method) {
+    if (method.name != methods().front().name) return {};
+    return {"", "generator"};
+}
+
+}  // namespace
+
+const Method& method_named(const std::string& name, const std::string& where) {
+    std::vector<std::string> names;
+    for (const auto& method : methods()) {
+        const auto others = other_names(method);
+        if (method.name == name || std::ranges::count(others, name) > 0) return method;
+        names.push_back(method.name);
+    }
+    const auto nearest = nearest_word(name, names);
+    throw Error("{}: there is no method '{}'; {}", where, printable(name),
+                nearest.empty() ? fmt::format("the methods are {}", fmt::join(names, ", "))
+                                : fmt::format("did you mean '{}'?", nearest));
+}
+
+Config generator_config(const Method& method) {
+    auto keys = method.keys();
+    for (auto& key : generator_keys()) keys.push_back(std::move(key));
+    return Config(method.name, std::move(keys), other_names(method));
+}
+
+Config read_generator_config(const std::filesystem::path& file) {
+    auto config = generator_config(method_named(model_named_in(file), file.string()));
+    config.load(file);
+    return config;
+}
+
+MotionSpec spec_of(const ingest::Subjects& subjects, const std::string& where) {
+    MotionSpec spec;
+    spec.representation = subjects.representation;
+    spec.topology = subjects.topology;
+    spec.persons = subjects.persons;
+    spec.classes = static_cast<std::uint32_t>(subjects.classes.size());
+    spec.where = where;
+    return spec;
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,68 @@
+#include "model/generators/train_generator.hpp"
+
+#include <memory>
+
+#include "base/error.hpp"
+#include "ingest/dataset/view.hpp"
+#include "model/generators/generator_file.hpp"
+#include "model/generators/generator_scorer.hpp"
+#include "model/nn/blas.hpp"
+#include "model/train/trainer.hpp"
+#include "model/train/training.hpp"
+
+namespace actformer::model {
+namespace {
+
+/// The GPU that belongs to this process; else the device as it is asked for.
+std::string device_for(const TrainerSettings& settings, const Place& place) {
+    return settings.device == "cuda" && place.size > 1 ? fmt::format("cuda:{}", place.local)
+                                                       : settings.device;
+}
+
+TrainingResult train_here(const Config& config, const std::filesystem::path& run, bool data_parallel,
+                          const TrainingEvents& events) {
+    const auto settings = generator_trainer_settings(config);
+    const auto& method = method_named(config.model(), "configuration");
+    const auto dataset = dataset_to_train_on(settings.data);
+    const auto subjects = ingest::subjects_of(dataset);
+    const auto spec = spec_of(subjects, dataset.folder().string());
+    method.networks(config, spec);  // what cannot be built is refused before the clips are loaded
+    const auto place = data_parallel ? place_of(environment) : Place{};
+    const auto device_name = device_for(settings, place);
+    const auto device = torch_device(device_name);
+    const auto processes =
+        data_parallel ? std::make_unique<Processes>(place, device) : std::make_unique<Processes>();
+    kernels::Device opencl(settings.opencl);
+    const auto clips = ingest::load_view(opencl, dataset, settings.train_split).store;
+    const LearnerSetup setup{clips, device, *processes};
+    const auto learner = method.learner(config, spec, setup);
+    std::unique_ptr<GeneratorScorer> scorer;
+    if (place.leads() && !settings.recogniser.empty()) {
+        scorer = std::make_unique<GeneratorScorer>(config, spec, dataset, clips, device_name);
+        if (events.note)
+            events.note(fmt::format("the recogniser knows {:.1f} % of the {} real windows of split {}",
+                                    100 * scorer->judge().real_accuracy(), scorer->judge().real_windows(),
+                                    settings.train_split));
+    }
+    const TrainingTask task{method.name, config, settings, dataset,
+                            [&](const auto& path, const auto& weights, const auto& notes) {
+                                save_generator(path, weights, config, subjects, notes);
+                            }};
+    return train(task, *learner, setup, scorer.get(), run, events);
+}
+
+}  // namespace
+
+TrainingResult train_generator(const Config& config, const std::filesystem::path& run, bool data_parallel,
+                               const TrainingEvents& events) {
+    set_threads(generator_trainer_settings(config).threads);
+    const auto blas = check_blas().line;
+    if (events.note && (!data_parallel || place_of(environment).leads())) events.note(blas);
+    try {
+        return train_here(config, run, data_parallel, events);
+    } catch (const c10::Error& e) {
+        throw Error("libtorch: {}; a smaller batch helps where memory ran out", one_line(e));
+    }
+}
+
+}  // namespace actformer::model

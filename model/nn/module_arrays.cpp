@@ -1,0 +1,44 @@
+#include "model/nn/module_arrays.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "model/nn/tensor_array.hpp"
+
+namespace actformer::model {
+namespace {
+
+std::vector<std::pair<std::string, at::Tensor>> tensors_of(const torch::nn::Module& module) {
+    std::vector<std::pair<std::string, at::Tensor>> all;
+    for (const auto& item : module.named_parameters()) all.emplace_back(item.key(), item.value());
+    for (const auto& item : module.named_buffers()) all.emplace_back(item.key(), item.value());
+    return all;
+}
+
+}  // namespace
+
+std::vector<Array> arrays_of(const torch::nn::Module& module, const std::string& prefix) {
+    std::vector<Array> arrays;
+    for (const auto& [name, tensor] : tensors_of(module)) arrays.push_back(array_of(prefix + name, tensor));
+    return arrays;
+}
+
+void load_arrays(const torch::nn::Module& module, const std::string& prefix, const std::vector<Array>& arrays,
+                 const std::string& where) {
+    for (const auto& [name, tensor] : tensors_of(module)) {
+        const auto& array = array_named(arrays, prefix + name, where);
+        if (array.shape != tensor.sizes().vec())
+            throw Error("{}: '{}{}' is of shape ({}) where its configuration wants ({})", where, prefix, name,
+                        fmt::join(array.shape, ", "), fmt::join(tensor.sizes(), ", "));
+        copy_into(tensor, array, where);
+    }
+}
+
+const Array& array_named(const std::vector<Array>& arrays, const std::string& name,
+                         const std::string& where) {
+    const auto found = std::ranges::find(arrays, name, &Array::name);
+    if (found == arrays.end()) throw Error("{}: holds no '{}'", where, name);
+    return *found;
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,63 @@
+// The ST-GCN in the training loop, and its scores on a test split. Includes torch headers.
+#pragma once
+
+#include "eval/metrics/confusion.hpp"
+#include "model/nn/sgd.hpp"
+#include "model/recognisers/recogniser_settings.hpp"
+#include "model/recognisers/stgcn_net.hpp"
+#include "model/train/scorer.hpp"
+#include "model/train/window_feed.hpp"
+
+namespace actformer::model {
+
+class RecogniserLearner : public Learner {
+  public:
+    RecogniserLearner(const RecogniserSettings& settings, const StgcnSettings& network,
+                      const LearnerSetup& setup);
+
+    std::uint64_t windows_a_step() const override { return settings_.batch; }
+    void step(std::uint64_t step, double rate_share) override;
+    at::Tensor& sums() override { return sums_; }
+    Measures losses(const std::vector<double>& sums, std::uint64_t steps) const override;
+    bool finite() override;
+    std::vector<Array> state() override;
+    void load(const std::vector<Array>& state, std::uint64_t steps, const std::string& where) override;
+    void share(std::uint64_t /*steps*/) override {}  // by one process
+    std::vector<Array> weights() override { return net_.arrays(); }
+
+    /// What it takes every window of `clips` for.
+    eval::Confusion confusion_on(const kernels::ClipStore& clips) const;
+
+  private:
+    at::Tensor values_of(const Windows& windows) const;
+
+    RecogniserSettings settings_;
+    at::Device device_;
+    StgcnNet net_;
+    Sgd sgd_;
+    RandomFeed feed_;
+    double rate_ = 0;  ///< of the last step
+    at::Tensor sums_;  ///< [loss, windows recognised]
+};
+
+class TestSplitScorer : public Scorer {
+  public:
+    TestSplitScorer(std::string split, const kernels::ClipStore& clips)
+        : split_(std::move(split)), clips_(clips) {}
+
+    bool due(std::uint64_t /*epoch*/, bool /*last*/) const override { return true; }
+    void begin(Learner& learner, std::uint64_t epoch, std::uint64_t step) override;
+    std::optional<Scores> end() override { return std::exchange(scores_, std::nullopt); }
+    bool in_background() const override { return false; }
+    std::string fingerprint() const override { return split_; }
+
+    const std::optional<eval::Confusion>& confusion() const { return confusion_; }  ///< of the last scores
+
+  private:
+    std::string split_;
+    const kernels::ClipStore& clips_;
+    std::optional<Scores> scores_;
+    std::optional<eval::Confusion> confusion_;
+};
+
+}  // namespace actformer::model

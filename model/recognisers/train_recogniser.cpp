@@ -1,0 +1,78 @@
+#include "model/recognisers/train_recogniser.hpp"
+
+#include <optional>
+
+#include "base/error.hpp"
+#include "ingest/dataset/view.hpp"
+#include "model/nn/blas.hpp"
+#include "model/recognisers/learner.hpp"
+#include "model/recognisers/stgcn_file.hpp"
+#include "model/train/trainer.hpp"
+#include "model/train/training.hpp"
+
+namespace actformer::model {
+namespace {
+
+/// A class that is never seen in training is never recognised: worth a line before hours of it.
+std::string missing_classes(const kernels::ClipStore& clips, const std::vector<std::string>& classes,
+                            const std::string& split) {
+    std::vector<std::size_t> counts(classes.size(), 0);
+    for (const auto label : clips.table().labels) ++counts[label];
+    std::vector<std::string> missing;
+    for (std::size_t c = 0; c < counts.size(); ++c)
+        if (counts[c] == 0) missing.push_back(classes[c]);
+    if (missing.empty()) return {};
+    constexpr std::size_t named = 8;
+    const auto more = missing.size() > named ? fmt::format(" and {} more", missing.size() - named) : "";
+    const auto all = missing.size();
+    missing.resize(std::min(all, named));
+    return fmt::format("split {} has no clip of {} of the {} classes, which will not be recognised: {}{}",
+                       split, all, counts.size(), fmt::join(missing, ", "), more);
+}
+
+RecogniserResult train_here(const Config& config, const std::filesystem::path& run,
+                            const TrainingEvents& events) {
+    const auto settings = recogniser_settings(config);
+    const auto dataset = dataset_to_train_on(settings.data);
+    const auto& header = dataset.header();
+    const auto network = network_for(settings, header.topology, header.persons, header.classes.size(),
+                                     dataset.folder().string());
+    kernels::Device opencl(settings.opencl);
+    const auto clips = ingest::load_view(opencl, dataset, settings.train_split).store;
+    std::optional<kernels::ClipStore> test_clips;
+    if (!settings.test_split.empty())
+        test_clips = ingest::load_view(opencl, dataset, settings.test_split).store;
+    const Processes alone;
+    const LearnerSetup setup{clips, torch_device(settings.device), alone};
+    RecogniserLearner learner(settings, network, setup);
+    std::optional<TestSplitScorer> scorer;
+    if (test_clips) scorer.emplace(settings.test_split, *test_clips);
+    const TrainingTask task{"recogniser", config, settings, dataset,
+                            [&](const auto& path, const auto& weights, auto notes) {
+                                notes["configuration"] = config.yaml();
+                                save_weights(path, network, weights, notes, header.classes);
+                            }};
+    if (const auto line = missing_classes(clips, header.classes, settings.train_split);
+        !line.empty() && events.note)
+        events.note(line);
+    RecogniserResult result{train(task, learner, setup, scorer ? &*scorer : nullptr, run, events),
+                            eval::Confusion(network.classes), header.classes};
+    if (scorer)  // an earlier call may have done all epochs
+        result.confusion = scorer->confusion() ? *scorer->confusion() : learner.confusion_on(*test_clips);
+    return result;
+}
+
+}  // namespace
+
+RecogniserResult train_recogniser(const Config& config, const std::filesystem::path& run,
+                                  const TrainingEvents& events) {
+    set_threads(recogniser_settings(config).threads);
+    if (events.note) events.note(check_blas().line);
+    try {
+        return train_here(config, run, events);
+    } catch (const c10::Error& e) {
+        throw Error("libtorch: {}; a smaller batch helps where memory ran out", one_line(e));
+    }
+}
+
+}  // namespace actformer::model

@@ -1,0 +1,332 @@
+#include "model/train/trainer.hpp"
+
+#include <chrono>
+#include <memory>
+
+#include "base/error.hpp"
+#include "model/train/checkpoint.hpp"
+#include "model/train/divergence.hpp"
+#include "model/train/run_folder.hpp"
+
+namespace actformer::model {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class Loop {
+  public:
+    Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Scorer* scorer,
+         const std::filesystem::path& run, const TrainingEvents& events);
+    TrainingResult run();
+
+  private:
+    bool leads() const { return processes_.place().leads(); }
+    void say(const std::string& line) const {
+        if (events_.note && leads()) events_.note(line);
+    }
+    void resume();
+    void compare_data(const Json& state) const;
+    void share();
+    std::vector<double> read_sums();
+    void read_losses();
+    void end_epoch();
+    void begin_scores(EpochReport& report);
+    std::optional<ScoreReport> end_scores();
+    void log_later_scores();
+    bool write(const std::function<void()>& something) const;
+    void log(const Json& line) const {
+        write([&] { folder_->log(line); });
+    }
+    Json state_now();
+    std::map<std::string, std::string> notes(std::uint64_t step) const;
+    void save();
+    bool keep();
+    void finish();
+    std::uint64_t epoch() const { return step_ / steps_an_epoch_; }
+    std::filesystem::path file(const char* name) const { return folder_->path() / name; }
+
+    const TrainingTask& task_;
+    const TrainerSettings& settings_;
+    Learner& learner_;
+    const Processes& processes_;
+    Scorer* scorer_;
+    const TrainingEvents& events_;
+    std::unique_ptr<RunFolder> folder_;  ///< of rank 0
+    DivergenceWatch watch_;
+    std::uint64_t steps_an_epoch_ = 0, windows_a_step_ = 0, step_ = 0;
+    std::vector<double> sums_;     ///< of the running epoch, when last read
+    std::uint64_t sums_step_ = 0;  ///< at which they were
+    Clock::time_point epoch_start_, kept_;
+    std::uint64_t timed_from_ = 0, kept_step_ = 0;
+    double epoch_seconds_ = 0;  ///< spent on the running epoch by earlier calls
+    std::optional<ScoreReport> best_, last_;
+    double best_merit_ = 0;
+};
+
+Loop::Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Scorer* scorer,
+           const std::filesystem::path& run, const TrainingEvents& events)
+    : task_(task),
+      settings_(task.settings),
+      learner_(learner),
+      processes_(setup.processes),
+      scorer_(scorer),
+      events_(events) {
+    windows_a_step_ = learner.windows_a_step() * static_cast<std::uint64_t>(processes_.place().size);
+    steps_an_epoch_ = (setup.clips.table().clips() + windows_a_step_ - 1) / windows_a_step_;
+    if (leads()) {
+        folder_ = std::make_unique<RunFolder>(run);
+        folder_->keep_to(task_.config);
+        resume();
+    }
+    share();
+    sums_step_ = timed_from_ = kept_step_ = step_;
+    sums_ = read_sums();
+    kept_ = epoch_start_ = Clock::now();
+}
+
+/// What differs is named: another skeleton or other classes are no mere update of the data.
+void Loop::compare_data(const Json& state) const {
+    const auto& header = task_.dataset.header();
+    const auto folder = folder_->path().string();
+    const auto refuse = [&](const std::string& what) {
+        throw Error("{}: holds a training on {}, and {} has others; choose another -o", folder, what,
+                    task_.dataset.folder().string());
+    };
+    if (state.at("persons") != header.persons)
+        refuse(fmt::format("{} persons a clip", state.at("persons").get<int>()));
+    if (state.at("representation") != header.representation.name())
+        refuse("motions as " + state.at("representation").get<std::string>());
+    if (state.at("parents") != Json(header.topology.parents))
+        refuse(fmt::format("a skeleton of {} joints", state.at("parents").size()));
+    if (state.at("classes") != Json(header.classes))
+        refuse(fmt::format("{} classes, the first '{}'", state.at("classes").size(),
+                           state.at("classes").empty() ? "" : state.at("classes")[0].get<std::string>()));
+    if (state.at("dataset") != task_.dataset.fingerprint())
+        throw Error("{}: holds a training on other data; choose another -o", folder);
+    if (state.at("processes") != processes_.place().size)
+        throw Error(
+            "{}: holds a training by {} processes, and these are {}; start as many, or choose another -o",
+            folder, state.at("processes").get<int>(), processes_.place().size);
+}
+
+void Loop::resume() {
+    const auto found =
+        newest_checkpoint(folder_->path(), task_.model, [this](const std::string& line) { say(line); });
+    if (found) {
+        const auto& state = found->state;
+        compare_data(state);
+        step_ = found->step;
+        learner_.load(found->arrays, step_,
+                      fmt::format("{}: checkpoint of step {}", folder_->path().string(), step_));
+        const auto sums = state.at("sums").get<std::vector<double>>();
+        for (std::size_t i = 0; i < sums.size(); ++i) learner_.sums()[static_cast<std::int64_t>(i)] = sums[i];
+        epoch_seconds_ = state.at("seconds");
+        if (scorer_ && state.contains("best") && state.at("scorer") == scorer_->fingerprint()) {
+            const auto& best = state.at("best");
+            best_ = ScoreReport{best.at("epoch"), best.at("step"), best.at("values"), true};
+            best_merit_ = best.at("merit");
+        }
+        say(step_ % steps_an_epoch_ == 0
+                ? fmt::format("going on after epoch {} of {}", epoch(), settings_.epochs)
+                : fmt::format("going on after step {}, in epoch {} of {}", step_, epoch() + 1,
+                              settings_.epochs));
+    }
+    folder_->rewind_log(epoch());
+}
+
+/// What rank 0 found in the folder, to all.
+void Loop::share() {
+    auto counters = at::tensor({static_cast<double>(step_)}, at::kDouble).to(learner_.sums().device());
+    processes_.share(counters);
+    processes_.share(learner_.sums());
+    step_ = static_cast<std::uint64_t>(counters.item<double>());
+    learner_.share(step_);
+}
+
+/// Waits for the device.
+std::vector<double> Loop::read_sums() {
+    const auto sums = learner_.sums().to(at::kCPU);
+    const auto* first = sums.data_ptr<double>();
+    return {first, first + sums.numel()};
+}
+
+void Loop::read_losses() {
+    const auto sums = read_sums();
+    auto since = sums;
+    for (std::size_t i = 0; i < sums.size(); ++i) since[i] -= sums_[i];
+    const auto losses = learner_.losses(since, step_ - sums_step_);
+    watch_.see(losses, learner_.trouble(losses), step_ - sums_step_);
+    sums_ = sums;
+    sums_step_ = step_;
+    const auto verdict = watch_.verdict();
+    if (verdict.empty()) return;
+    if (!leads()) throw Error("rank {}: stopped at step {}", processes_.place().rank, step_);
+    log_later_scores();
+    throw Error(
+        "{}: stopped at step {}, as {}; the checkpoint of step {} is kept, and lower learning rates in a new "
+        "-o may help",
+        folder_->path().string(), step_, verdict, kept_step_);
+}
+
+void Loop::end_epoch() {
+    EpochReport report{epoch(), step_, learner_.losses(sums_, steps_an_epoch_), {}, 0, 0, 0};
+    const double here = seconds_since(epoch_start_);
+    report.seconds = epoch_seconds_ + here;
+    report.steps_a_second = static_cast<double>(step_ - timed_from_) / here;
+    report.windows_a_second = report.steps_a_second * static_cast<double>(windows_a_step_);
+    learner_.sums().zero_();
+    sums_.assign(sums_.size(), 0);
+    if (leads()) {
+        begin_scores(report);
+        Json line{{"epoch", report.epoch}, {"step", report.step}};
+        for (const auto& loss : report.losses) line[loss.key] = loss.value;
+        if (report.scores) line.update(report.scores->values);
+        line["seconds"] = report.seconds;
+        line["steps_a_second"] = report.steps_a_second;
+        line["windows_a_second"] = report.windows_a_second;
+        log(line);
+        if (events_.epoch) events_.epoch(report);
+    }
+    epoch_seconds_ = 0;
+    timed_from_ = step_;
+    epoch_start_ = Clock::now();
+}
+
+void Loop::begin_scores(EpochReport& report) {
+    if (!scorer_ || !scorer_->due(report.epoch, report.epoch == settings_.epochs)) return;
+    log_later_scores();
+    scorer_->begin(learner_, report.epoch, step_);
+    if (!scorer_->in_background()) report.scores = end_scores();
+}
+
+/// Waits for the scores on their way, if there are any, and keeps the best one's weights.
+std::optional<ScoreReport> Loop::end_scores() {
+    auto scores = scorer_ ? scorer_->end() : std::nullopt;
+    if (!scores) return std::nullopt;
+    auto& report = scores->report;
+    report.best = (!best_ || scores->merit > best_merit_) && write([&] {
+                      task_.save_weights(file("weights-best.h5"), scores->weights, notes(report.step));
+                  });
+    last_ = report;
+    if (report.best) {
+        best_ = report;
+        best_merit_ = scores->merit;
+    }
+    return report;
+}
+
+void Loop::log_later_scores() {
+    const auto report = end_scores();
+    if (!report) return;
+    Json line{{"epoch", report->epoch}, {"step", report->step}};
+    line.update(report->values);
+    log(line);
+    if (events_.scores) events_.scores(*report);
+}
+
+std::map<std::string, std::string> Loop::notes(std::uint64_t step) const {
+    return {{"program", "actformer " ACTFORMER_VERSION},
+            {"dataset", task_.dataset.header().name},
+            {"fingerprint", task_.dataset.fingerprint()},
+            {"split", settings_.train_split},
+            {"step", std::to_string(step)},
+            {"epoch", std::to_string(step / steps_an_epoch_)}};
+}
+
+Json Loop::state_now() {
+    const auto& header = task_.dataset.header();
+    Json state{{"model", task_.model},
+               {"program", ACTFORMER_VERSION},
+               {"dataset", task_.dataset.fingerprint()},
+               {"persons", header.persons},
+               {"representation", header.representation.name()},
+               {"parents", header.topology.parents},
+               {"classes", header.classes},
+               {"processes", processes_.place().size},
+               {"seed", settings_.seed},  // with the steps done, all there is to the random numbers' state
+               {"sums", sums_},
+               {"seconds", epoch_seconds_ + seconds_since(epoch_start_)}};
+    if (scorer_) state["scorer"] = scorer_->fingerprint();
+    if (best_)
+        state["best"] = {{"epoch", best_->epoch},
+                         {"step", best_->step},
+                         {"values", best_->values},
+                         {"merit", best_merit_}};
+    return state;
+}
+
+/// Where there is no room, training goes on, and says so.
+bool Loop::write(const std::function<void()>& something) const {
+    try {
+        something();
+        return true;
+    } catch (const Error& e) {
+        say(fmt::format("step {}: {}; training goes on", step_, e.what()));
+        return false;
+    }
+}
+
+/// Weights and checkpoint, the latter last: what a kill leaves before it is written anew, the same.
+void Loop::save() {
+    task_.save_weights(file("weights-last.h5"), learner_.weights(), notes(step_));
+    if (learner_.keeps_ema())
+        task_.save_weights(file("weights-average.h5"), learner_.ema_weights(), notes(step_));
+    save_checkpoint(folder_->path(), {step_, state_now(), learner_.state()});
+    kept_step_ = step_;
+}
+
+/// Keeps what is sound. False where it is not, or cannot be written.
+bool Loop::keep() {
+    kept_ = Clock::now();
+    log_later_scores();
+    if (!watch_.sound() || !learner_.finite()) return false;
+    return write([this] { save(); });
+}
+
+/// The last of it must be kept.
+void Loop::finish() {
+    log_later_scores();
+    if (!learner_.finite())
+        throw Error("{}: the weights of step {} are no numbers; the checkpoint of step {} is kept",
+                    folder_->path().string(), step_, kept_step_);
+    save();
+}
+
+TrainingResult Loop::run() {
+    const auto all = settings_.epochs * steps_an_epoch_;
+    const std::uint64_t between_readings = learner_.sums().is_cpu() ? 1 : 20;  // steps
+    while (step_ < all) {
+        learner_.step(step_, settings_.rate_share(epoch()));
+        ++step_;
+        const bool ends = step_ % steps_an_epoch_ == 0;
+        if (ends || step_ % between_readings == 0) read_losses();
+        if (ends) end_epoch();
+        if (leads() && sums_step_ == step_ && seconds_since(kept_) >= 60 * settings_.checkpoint_minutes)
+            keep();
+        if (leads() && events_.progress)
+            events_.progress(static_cast<double>(step_) / static_cast<double>(all), step_);
+    }
+    TrainingResult result{epoch(), step_, {}, {}, {}, {}, {}};
+    if (!leads()) return result;
+    finish();
+    result.best = best_;
+    result.last = last_;
+    result.weights = file("weights-last.h5");
+    if (learner_.keeps_ema()) result.average_weights = file("weights-average.h5");
+    if (best_) result.best_weights = file("weights-best.h5");
+    return result;
+}
+
+}  // namespace
+
+TrainingResult train(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Scorer* scorer,
+                     const std::filesystem::path& run, const TrainingEvents& events) {
+    return Loop(task, learner, setup, scorer, run, events).run();
+}
+
+}  // namespace actformer::model
