@@ -1,4 +1,4 @@
-// How ActFormer's two networks train against each other (the paper's section 3.4). Of what they are made, see settings.hpp.
+// How ActFormer's two networks train against each other (the paper's equation 1). Of what they are made, see settings.hpp.
 #pragma once
 
 #include <cstdint>
