@@ -1,6 +1,7 @@
 // The generator's two ends on processors: latents to tokens, tokens to motions. T float or double.
 #pragma once
 
+#include "ingest/dataset/representation.hpp"
 #include "model/cpu/transformer_kernels.hpp"
 
 namespace actformer::model::cpu {
@@ -27,11 +28,13 @@ template <typename T>
 void embed_backward(const EmbeddingShape& shape, const T* latent, const T* grad,
                     const EmbeddingGradients<T>& to, int threads);
 
-/// Motions of limb vectors (samples, persons * 3, frames, joints) from tokens: norm, linear map to 3 numbers a joint, and all
-/// joints but one become unit limbs, tanh(x) / (|tanh(x)| + 1e-4).
+/// Motions (samples, persons * numbers, frames, nodes) from tokens: norm, linear map to the numbers of every node, and what
+/// the representation makes of them (ingest::Finish).
 struct PoseShape {
     TokenShape tokens;
-    std::int64_t joints, free_joint;
+    std::int64_t nodes;
+    ingest::Representation representation;
+    std::int64_t numbers() const { return representation.numbers(); }
     std::int64_t frames() const { return tokens.tokens - 1; }
     std::int64_t raw_pitch() const;  ///< numbers a row has in what is kept
 };
@@ -39,7 +42,7 @@ struct PoseShape {
 template <typename T>
 struct PoseWeights {
     NormWeight<T> norm;
-    LinearWeight<T> head;  ///< (joints * 3, width)
+    LinearWeight<T> head;  ///< (nodes * numbers, width)
 };
 
 /// `kept` (samples * persons * frames, raw_pitch) takes the linear map's outputs; null where nothing is kept.

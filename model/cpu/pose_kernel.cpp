@@ -1,4 +1,4 @@
-// Tokens to motions. The head's rows are taken number by number, (3, joints), as motions lie: joints are the vectors.
+// Tokens to motions. The head's rows are taken number by number, (numbers, nodes), as motions lie: nodes are the vectors.
 #include <limits>
 
 #include "model/cpu/kernel_support.hpp"
@@ -8,7 +8,7 @@
 namespace actformer::model::cpu {
 namespace {
 
-constexpr std::int64_t axes = 3;
+constexpr std::int64_t axes = 3;  // of space
 
 /// What scratch memory is for.
 struct TurnedWeight {};
@@ -27,87 +27,229 @@ struct HeadGrad {};
 struct HeadBiasGrad {};
 struct HeadWeight {};
 
-constexpr double length_epsilon = 1e-4;
+constexpr double length_epsilon = 1e-4, shortest = 1e-12;
 
-/// Rows (joints, axes) of `width` numbers to (axes, joints), or back.
+/// Rows (nodes, numbers) of `width` numbers to (numbers, nodes), or back.
 template <typename T>
-void turn(const T* from, std::int64_t joints, std::int64_t width, bool back, T* to) {
-    for (std::int64_t k = 0; k < joints; ++k)
-        for (std::int64_t d = 0; d < axes; ++d) {
-            const auto by_joint = (k * axes + d) * width, by_axis = (d * joints + k) * width;
-            std::copy_n(from + (back ? by_axis : by_joint), width, to + (back ? by_joint : by_axis));
+void turn(const T* from, std::int64_t nodes, std::int64_t numbers, std::int64_t width, bool back, T* to) {
+    for (std::int64_t k = 0; k < nodes; ++k)
+        for (std::int64_t d = 0; d < numbers; ++d) {
+            const auto by_node = (k * numbers + d) * width, by_number = (d * nodes + k) * width;
+            std::copy_n(from + (back ? by_number : by_node), width, to + (back ? by_node : by_number));
         }
 }
 
-/// Some joints' limbs.
+/// Three numbers of some nodes.
 template <typename T>
-struct Limbs {
-    Lanes<T> bent[axes], length;
+struct Vectors {
+    Lanes<T> x[axes];
 
-    /// `raw` (axes, joints) of one frame, from joint k on, `here` of them.
-    Limbs(const T* raw, std::int64_t joints, std::int64_t k, std::int64_t here) {
-        Lanes<T> square = {};
-        for (std::int64_t d = 0; d < axes; ++d) {
-            bent[d] = hyperbolic_tangent(load_part(raw + d * joints + k, here));
-            square += bent[d] * bent[d];
-        }
-        length = root(square);
+    Lanes<T>& operator[](std::int64_t d) { return x[d]; }
+    const Lanes<T>& operator[](std::int64_t d) const { return x[d]; }
+};
+
+template <typename T>
+Lanes<T> dot(const Vectors<T>& a, const Vectors<T>& b) {
+    Lanes<T> sum = {};
+    for (std::int64_t d = 0; d < axes; ++d) sum += a[d] * b[d];
+    return sum;
+}
+
+/// From rows `step` apart, `here` numbers of each.
+template <typename T>
+Vectors<T> load_vectors(const T* from, std::int64_t step, std::int64_t here) {
+    Vectors<T> out;
+    for (std::int64_t d = 0; d < axes; ++d) out[d] = load_part(from + d * step, here);
+    return out;
+}
+
+template <typename T>
+void store_vectors(const Vectors<T>& vectors, T* to, std::int64_t step, std::int64_t here) {
+    for (std::int64_t d = 0; d < axes; ++d) store_part(to + d * step, vectors[d], here);
+}
+
+/// tanh of what load_vectors gives.
+template <typename T>
+Vectors<T> bent(const T* raw, std::int64_t step, std::int64_t here) {
+    auto out = load_vectors(raw, step, here);
+    for (std::int64_t d = 0; d < axes; ++d) out[d] = hyperbolic_tangent(out[d]);
+    return out;
+}
+
+/// Back through bent(): `grad` times 1 - tanh^2.
+template <typename T>
+Vectors<T> unbent(const Vectors<T>& bent, const Vectors<T>& grad) {
+    Vectors<T> out;
+    for (std::int64_t d = 0; d < axes; ++d) out[d] = grad[d] * (1 - bent[d] * bent[d]);
+    return out;
+}
+
+/// Limb vectors y = l / (|l| + e), l = tanh(raw).
+template <typename T>
+struct UnitFinish {
+    static constexpr std::int64_t numbers = axes;
+
+    static void forward(const T* raw, std::int64_t nodes, T* motion, std::int64_t step, std::int64_t here) {
+        const auto limbs = bent(raw, nodes, here);
+        const auto over = 1 / (root(dot(limbs, limbs)) + static_cast<T>(length_epsilon));
+        for (std::int64_t d = 0; d < axes; ++d) store_part(motion + d * step, limbs[d] * over, here);
+    }
+
+    /// With s = |l|: dl = dy / (s + e) - l (l . dy) / (s (s + e)^2); the second term is 0 where l is.
+    static void backward(const T* raw, std::int64_t nodes, const T* grad, std::int64_t step, T* to,
+                         std::int64_t here) {
+        const auto limbs = bent(raw, nodes, here), g = load_vectors(grad, step, here);
+        const auto length = root(dot(limbs, limbs)), over = 1 / (length + static_cast<T>(length_epsilon));
+        const Lanes<T> still = Lanes<T>{} + std::numeric_limits<T>::min();
+        const auto pull = dot(g, limbs) * over * over / (length > still ? length : still);
+        Vectors<T> to_limbs;
+        for (std::int64_t d = 0; d < axes; ++d) to_limbs[d] = g[d] * over - limbs[d] * pull;
+        store_vectors(unbent(limbs, to_limbs), to, nodes, here);
     }
 };
 
-/// One frame: `step` numbers lie between a motion's axes.
+/// Vectors and their directions, v / max(|v|, shortest).
 template <typename T>
-void shape_frame(const T* raw, const PoseShape& shape, T* motion, std::int64_t step) {
-    const auto joints = shape.joints;
-    for (std::int64_t k = 0; k < joints; k += lanes<T>) {
-        const auto here = std::min<std::int64_t>(lanes<T>, joints - k);
-        const Limbs<T> limbs(raw, joints, k, here);
-        const auto over = 1 / (limbs.length + static_cast<T>(length_epsilon));
-        for (std::int64_t d = 0; d < axes; ++d) store_part(motion + d * step + k, limbs.bent[d] * over, here);
+struct Directions {
+    Vectors<T> unit;
+    Lanes<T> over, pulled;  ///< 1 / max(|v|, shortest); 1 where |v| counts, else 0
+
+    explicit Directions(const Vectors<T>& v) {
+        const Lanes<T> least = Lanes<T>{} + static_cast<T>(shortest), one = Lanes<T>{} + 1, none = {};
+        const auto length = root(dot(v, v));
+        pulled = length > least ? one : none;
+        over = 1 / (length > least ? length : least);
+        for (std::int64_t d = 0; d < axes; ++d) unit[d] = v[d] * over;
     }
-    for (std::int64_t d = 0; d < axes; ++d)
-        motion[d * step + shape.free_joint] = raw[d * joints + shape.free_joint];
+
+    /// The vectors' gradient from the directions': (g - unit (unit . g)) / |v|.
+    Vectors<T> backward(const Vectors<T>& g) const {
+        const auto along = dot(unit, g) * pulled;
+        Vectors<T> out;
+        for (std::int64_t d = 0; d < axes; ++d) out[d] = (g[d] - unit[d] * along) * over;
+        return out;
+    }
+};
+
+/// The first two rows of rotations: of a and b = tanh(raw) the direction of a, and that of b - (a . b) a / |a|^2 (Gram and
+/// Schmidt).
+template <typename T>
+struct OrthonormalFinish {
+    static constexpr std::int64_t numbers = 2 * axes;
+
+    static Vectors<T> rest_of(const Vectors<T>& b, const Vectors<T>& first) {
+        const auto along = dot(first, b);
+        Vectors<T> rest;
+        for (std::int64_t d = 0; d < axes; ++d) rest[d] = b[d] - along * first[d];
+        return rest;
+    }
+
+    static void forward(const T* raw, std::int64_t nodes, T* motion, std::int64_t step, std::int64_t here) {
+        const Directions<T> first(bent(raw, nodes, here));
+        const Directions<T> second(rest_of(bent(raw + axes * nodes, nodes, here), first.unit));
+        store_vectors(first.unit, motion, step, here);
+        store_vectors(second.unit, motion + axes * step, step, here);
+    }
+
+    /// With r = b - (f . b) f: db = dr - f (f . dr), and df = dy1 - (f . b) dr - b (f . dr).
+    static void backward(const T* raw, std::int64_t nodes, const T* grad, std::int64_t step, T* to,
+                         std::int64_t here) {
+        const auto a = bent(raw, nodes, here), b = bent(raw + axes * nodes, nodes, here);
+        const Directions<T> first(a);
+        const auto& f = first.unit;
+        const auto to_rest =
+            Directions<T>(rest_of(b, f)).backward(load_vectors(grad + axes * step, step, here));
+        const auto along = dot(f, b), back = dot(f, to_rest);
+        auto to_first = load_vectors(grad, step, here);
+        Vectors<T> to_b;
+        for (std::int64_t d = 0; d < axes; ++d) {
+            to_b[d] = to_rest[d] - f[d] * back;
+            to_first[d] -= along * to_rest[d] + b[d] * back;
+        }
+        store_vectors(unbent(a, first.backward(to_first)), to, nodes, here);
+        store_vectors(unbent(b, to_b), to + axes * nodes, nodes, here);
+    }
+};
+
+/// One frame through a finish: `raw` (numbers, nodes), and `step` numbers between those of a motion's node.
+template <typename Finish, typename T>
+void finish_frame(const T* raw, std::int64_t nodes, T* motion, std::int64_t step) {
+    for (std::int64_t k = 0; k < nodes; k += lanes<T>)
+        Finish::forward(raw + k, nodes, motion + k, step, std::min<std::int64_t>(lanes<T>, nodes - k));
 }
 
-/// With y = l / (s + e), s = |l|: dl = dy / (s + e) - l (l . dy) / (s (s + e)^2); the second term is 0 where l is.
+template <typename Finish, typename T>
+void finish_frame_backward(const T* raw, std::int64_t nodes, const T* grad, std::int64_t step, T* to) {
+    for (std::int64_t k = 0; k < nodes; k += lanes<T>)
+        Finish::backward(raw + k, nodes, grad + k, step, to + k, std::min<std::int64_t>(lanes<T>, nodes - k));
+}
+
+/// Copies rows of `width` numbers.
+template <typename T>
+void copy_rows(const T* from, std::int64_t from_step, T* to, std::int64_t to_step, std::int64_t rows,
+               std::int64_t width) {
+    for (std::int64_t r = 0; r < rows; ++r) std::copy_n(from + r * from_step, width, to + r * to_step);
+}
+
+/// The free node's position as it is, and 0 behind it, in rows one number apart of `step` numbers.
+template <typename T>
+void free_position(const T* from, std::int64_t from_step, T* to, std::int64_t to_step, std::int64_t numbers) {
+    for (std::int64_t d = 0; d < numbers; ++d) to[d * to_step] = d < axes ? from[d * from_step] : T(0);
+}
+
+/// One frame: `step` numbers lie between a motion's numbers of a node.
+template <typename T>
+void shape_frame(const T* raw, const PoseShape& shape, T* motion, std::int64_t step) {
+    const auto nodes = shape.nodes;
+    switch (shape.representation.finish()) {
+        case ingest::Finish::unit:
+            finish_frame<UnitFinish<T>>(raw, nodes, motion, step);
+            break;
+        case ingest::Finish::orthonormal:
+            finish_frame<OrthonormalFinish<T>>(raw, nodes, motion, step);
+            break;
+        case ingest::Finish::linear:
+            copy_rows(raw, nodes, motion, step, shape.numbers(), nodes);
+            break;
+    }
+    if (const auto free = shape.representation.free_node(static_cast<std::uint32_t>(nodes)))
+        free_position(raw + *free, nodes, motion + *free, step, shape.numbers());
+}
+
 template <typename T>
 void shape_frame_backward(const T* raw, const PoseShape& shape, const T* grad, std::int64_t step, T* to) {
-    const auto joints = shape.joints;
-    for (std::int64_t k = 0; k < joints; k += lanes<T>) {
-        const auto here = std::min<std::int64_t>(lanes<T>, joints - k);
-        const Limbs<T> limbs(raw, joints, k, here);
-        const auto over = 1 / (limbs.length + static_cast<T>(length_epsilon));
-        Lanes<T> g[axes], along = {};
-        for (std::int64_t d = 0; d < axes; ++d) {
-            g[d] = load_part(grad + d * step + k, here);
-            along += g[d] * limbs.bent[d];
-        }
-        const Lanes<T> still = Lanes<T>{} + std::numeric_limits<T>::min();
-        const auto pull = along * over * over / (limbs.length > still ? limbs.length : still);
-        for (std::int64_t d = 0; d < axes; ++d) {
-            const auto slope = 1 - limbs.bent[d] * limbs.bent[d];
-            store_part(to + d * joints + k, (g[d] * over - limbs.bent[d] * pull) * slope, here);
-        }
+    const auto nodes = shape.nodes;
+    switch (shape.representation.finish()) {
+        case ingest::Finish::unit:
+            finish_frame_backward<UnitFinish<T>>(raw, nodes, grad, step, to);
+            break;
+        case ingest::Finish::orthonormal:
+            finish_frame_backward<OrthonormalFinish<T>>(raw, nodes, grad, step, to);
+            break;
+        case ingest::Finish::linear:
+            copy_rows(grad, step, to, nodes, shape.numbers(), nodes);
+            break;
     }
-    for (std::int64_t d = 0; d < axes; ++d)
-        to[d * joints + shape.free_joint] = grad[d * step + shape.free_joint];
+    if (const auto free = shape.representation.free_node(static_cast<std::uint32_t>(nodes)))
+        free_position(grad + *free, step, to + *free, nodes, shape.numbers());
 }
 
 }  // namespace
 
 std::int64_t PoseShape::raw_pitch() const {
-    return (axes * joints + 15) / 16 * 16;
+    return (numbers() * nodes + 15) / 16 * 16;
 }
 
 template <typename T>
 void pose_forward(const PoseShape& shape, const T* x, const PoseWeights<T>& weights, T* kept, T* motion,
                   int threads) {
-    const auto width = shape.tokens.width, frames = shape.frames(), joints = shape.joints,
-               out = axes * joints, pitch = padded<T>(width), raw_pitch = shape.raw_pitch();
+    const auto width = shape.tokens.width, frames = shape.frames(), nodes = shape.nodes,
+               numbers = shape.numbers(), out = numbers * nodes, pitch = padded<T>(width),
+               raw_pitch = shape.raw_pitch();
     T* turned = scratch<T>(TurnedWeight{}, out * width);
     T* turned_biases = scratch<T>(TurnedBias{}, out);
-    turn(weights.head.weight, joints, width, false, turned);
-    turn(weights.head.bias, joints, 1, false, turned_biases);
+    turn(weights.head.weight, nodes, numbers, width, false, turned);
+    turn(weights.head.bias, nodes, numbers, 1, false, turned_biases);
     auto& packed = packed_scratch<T>(HeadWeight{});
     pack_forward(packed, turned, out, width, threads);
     const T* bias = padded_copy(BiasRow{}, turned_biases, out);
@@ -121,18 +263,19 @@ void pose_forward(const PoseShape& shape, const T* x, const PoseWeights<T>& weig
                           normal + t * pitch);
         product<T>(EvenRows<T>{normal, pitch}, frames, packed, out, StoreBiased<T>{raw, raw_pitch, bias});
         for (std::int64_t t = 0; t < frames; ++t)
-            shape_frame(raw + t * raw_pitch, shape, motion + (sequence * axes * frames + t) * joints,
-                        frames * joints);
+            shape_frame(raw + t * raw_pitch, shape, motion + (sequence * numbers * frames + t) * nodes,
+                        frames * nodes);
     }
 }
 
 template <typename T>
 void pose_backward(const PoseShape& shape, const T* x, const PoseWeights<T>& weights, const T* kept,
                    const T* grad, const PoseGradients<T>& to, int threads) {
-    const auto width = shape.tokens.width, frames = shape.frames(), joints = shape.joints,
-               out = axes * joints, pitch = padded<T>(width), raw_pitch = shape.raw_pitch();
+    const auto width = shape.tokens.width, frames = shape.frames(), nodes = shape.nodes,
+               numbers = shape.numbers(), out = numbers * nodes, pitch = padded<T>(width),
+               raw_pitch = shape.raw_pitch();
     T* turned = scratch<T>(TurnedWeight{}, out * width);
-    turn(weights.head.weight, joints, width, false, turned);
+    turn(weights.head.weight, nodes, numbers, width, false, turned);
     auto& packed = packed_scratch<T>(HeadWeight{});
     pack_backward(packed, turned, out, width, threads);
     T *to_head = scratch<T>(HeadGrad{}, out * width), *to_head_bias = scratch<T>(HeadBiasGrad{}, out);
@@ -152,7 +295,7 @@ void pose_backward(const PoseShape& shape, const T* x, const PoseWeights<T>& wei
             const T* from = x + first;
             for (std::int64_t t = 0; t < frames; ++t) {
                 shape_frame_backward(kept + (sequence * frames + t) * raw_pitch, shape,
-                                     grad + (sequence * axes * frames + t) * joints, frames * joints,
+                                     grad + (sequence * numbers * frames + t) * nodes, frames * nodes,
                                      to_raw + t * raw_pitch);
                 add_row(to_raw + t * raw_pitch, out, own_bias);
                 normalise_row(from + t * width, width, weights.norm.weight, weights.norm.bias,
@@ -172,8 +315,8 @@ void pose_backward(const PoseShape& shape, const T* x, const PoseWeights<T>& wei
         head.write(to_head);
         head_bias.write(to_head_bias);
     }
-    turn(to_head, joints, width, true, to.head.weight);
-    turn(to_head_bias, joints, 1, true, to.head.bias);
+    turn(to_head, nodes, numbers, width, true, to.head.weight);
+    turn(to_head_bias, nodes, numbers, 1, true, to.head.bias);
 }
 
 #define ACTFORMER_POSE(T)                                                                                 \

@@ -213,20 +213,22 @@ struct Mlp : Function<Mlp> {
     }
 };
 
-cpu::PoseShape pose_shape(const at::Tensor& x, const at::Tensor& head, std::int64_t free_joint) {
-    return {token_shape(x), head.size(0) / 3, free_joint};
+cpu::PoseShape pose_shape(const at::Tensor& x, const at::Tensor& head,
+                          ingest::Representation representation) {
+    return {token_shape(x), head.size(0) / representation.numbers(), representation};
 }
 
 at::Tensor motion_for(const cpu::PoseShape& shape, const at::Tensor& like) {
-    return at::empty({shape.tokens.samples, shape.tokens.persons * 3, shape.frames(), shape.joints},
-                     like.options());
+    return at::empty(
+        {shape.tokens.samples, shape.tokens.persons * shape.numbers(), shape.frames(), shape.nodes},
+        like.options());
 }
 
 struct Poses : Function<Poses> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& norm,
                               const at::Tensor& norm_bias, const at::Tensor& head,
-                              const at::Tensor& head_bias, std::int64_t free_joint) {
-        const auto shape = pose_shape(x, head, free_joint);
+                              const at::Tensor& head_bias, ingest::Representation representation) {
+        const auto shape = pose_shape(x, head, representation);
         auto kept = at::empty(
             {shape.tokens.samples * shape.tokens.persons * shape.frames(), shape.raw_pitch()}, x.options());
         auto motion = motion_for(shape, x);
@@ -237,7 +239,7 @@ struct Poses : Function<Poses> {
                                  in<T>(motion), threads());
         });
         context->save_for_backward({x, norm, norm_bias, head, head_bias, kept});
-        context->saved_data["free_joint"] = free_joint;
+        context->saved_data["representation"] = std::int64_t{ingest::Representation::Kind(representation)};
         return motion;
     }
 
@@ -245,14 +247,16 @@ struct Poses : Function<Poses> {
         const auto saved = context->get_saved_variables();
         const auto& x = saved[0];
         const auto grad = grads[0].contiguous();
+        const auto representation =
+            static_cast<ingest::Representation::Kind>(context->saved_data["representation"].toInt());
         auto to_x = at::empty_like(x);
         const Gradients norm(saved[1], saved[2]), head(saved[3], saved[4]);
         timed("tokens to motions", true, x, [&](auto number) {
             using T = decltype(number);
-            cpu::pose_backward<T>(
-                pose_shape(x, saved[3], context->saved_data["free_joint"].toInt()), in<T>(x),
-                {norm_of<T>(saved[1], saved[2]), linear_of<T>(saved[3], saved[4])}, in<T>(saved[5]),
-                in<T>(grad), {in<T>(to_x), norm.to<T>(), head.to<T>()}, threads());
+            cpu::pose_backward<T>(pose_shape(x, saved[3], representation), in<T>(x),
+                                  {norm_of<T>(saved[1], saved[2]), linear_of<T>(saved[3], saved[4])},
+                                  in<T>(saved[5]), in<T>(grad), {in<T>(to_x), norm.to<T>(), head.to<T>()},
+                                  threads());
         });
         return {to_x, norm.weight, norm.bias, head.weight, head.bias, {}};
     }
@@ -392,9 +396,9 @@ at::Tensor fused_mlp(const at::Tensor& x, const LinearTensors& norm, const Linea
 }
 
 at::Tensor fused_poses(const at::Tensor& x, const LinearTensors& norm, const LinearTensors& head,
-                       std::int64_t free_joint) {
-    if (keeps()) return Poses::apply(x, norm.weight, norm.bias, head.weight, head.bias, free_joint);
-    const auto shape = pose_shape(x, head.weight, free_joint);
+                       ingest::Representation representation) {
+    if (keeps()) return Poses::apply(x, norm.weight, norm.bias, head.weight, head.bias, representation);
+    const auto shape = pose_shape(x, head.weight, representation);
     auto motion = motion_for(shape, x);
     timed("tokens to motions", false, x, [&](auto number) {
         using T = decltype(number);

@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "ingest/dataset/representation.hpp"
 #include "model/cpu/node_kernels.hpp"
 
 namespace actformer::model {
@@ -36,9 +37,9 @@ void fused_attention_in_place(const at::Tensor& x, const LinearTensors& norm, co
 void fused_mlp_in_place(const at::Tensor& x, const LinearTensors& norm, const LinearTensors& up,
                         const LinearTensors& down);
 
-/// x (N, P, T+1, W) -> motions of limb vectors (N, P*3, T, joints).
+/// x (N, P, T+1, W) -> motions (N, P*D, T, K) in a representation: norm, linear map, finish.
 at::Tensor fused_poses(const at::Tensor& x, const LinearTensors& norm, const LinearTensors& head,
-                       std::int64_t free_joint);
+                       ingest::Representation representation);
 
 /// motion (N, C, T, K) -> (N, K, padding + T + padding, 2C), the numbers and their differences over time.
 at::Tensor fused_motion_input(const at::Tensor& motion, std::int64_t padding);

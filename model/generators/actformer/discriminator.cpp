@@ -132,10 +132,10 @@ at::Tensor Discriminator::pooled(const at::Tensor& features) const {
 }
 
 at::Tensor Discriminator::forward(const at::Tensor& motion, const at::Tensor& labels) {
-    const std::int64_t persons = settings_.persons, numbers = settings_.numbers, joints = settings_.joints();
-    if (motion.dim() != 4 || motion.size(1) != persons * numbers || motion.size(3) != joints ||
+    const std::int64_t persons = settings_.persons, numbers = settings_.numbers, nodes = settings_.nodes();
+    if (motion.dim() != 4 || motion.size(1) != persons * numbers || motion.size(3) != nodes ||
         labels.dim() != 1 || labels.size(0) != motion.size(0))
-        throw Error("the discriminator takes motions (N, {}, T, {}) and N labels", persons * numbers, joints);
+        throw Error("the discriminator takes motions (N, {}, T, {}) and N labels", persons * numbers, nodes);
     const auto n = motion.size(0), t = motion.size(2);
     if (t < fewest_frames)
         throw Error("{} frames: the discriminator halves them four times and needs at least {}", t,
@@ -143,7 +143,7 @@ at::Tensor Discriminator::forward(const at::Tensor& motion, const at::Tensor& la
     const auto found =
         settings_.persons_in == PersonsInD::concat
             ? features(motion)
-            : pooled(features(motion.reshape({n * persons, numbers, t, joints})).view({n, persons, -1}));
+            : pooled(features(motion.reshape({n * persons, numbers, t, nodes})).view({n, persons, -1}));
     const auto classes = weights_.normalised("classes.weight", is_training()).index_select(0, labels);
     return linear(found, "score").squeeze(1) + (classes * found).sum(1);
 }

@@ -128,17 +128,17 @@ at::Tensor Generator::fused_transformed(at::Tensor x) const {
 
 /// x (N, S, T+1, W), S the tokens a frame.
 at::Tensor Generator::motion(const at::Tensor& x) const {
-    if (takes_fused_path(x) && settings_.body == Body::transformer && settings_.numbers == 3 &&
+    if (takes_fused_path(x) && settings_.body == Body::transformer &&
         settings_.tokens_a_frame() == settings_.persons)
         return fused_poses(x, weights_.layer("norm", is_training()), weights_.layer("head", is_training()),
-                           settings_.free_joint);
+                           settings_.representation);
     const auto n = x.size(0), t = x.size(2) - 1;
     const auto normal =
         at::layer_norm(x.slice(2, 1), {settings_.width}, weights_.normalised("norm.weight", is_training()),
                        weights_.at("norm.bias"), norm_epsilon);
-    const auto shaped = this->shaped(poses(normal));  // (N, P, T, K, D)
-    return shaped.permute({0, 1, 4, 2, 3})
-        .reshape({n, settings_.persons * settings_.numbers, t, settings_.joints()});
+    const auto finished = this->finished(poses(normal));  // (N, P, T, K, D)
+    return finished.permute({0, 1, 4, 2, 3})
+        .reshape({n, settings_.persons * settings_.numbers(), t, settings_.nodes()});
 }
 
 /// x (N, T, nodes, in): every hop's linear map, then the fixed sums over nodes. Spectral norms and sums make numbers smaller layer
@@ -155,32 +155,37 @@ at::Tensor Generator::graph_layer(const at::Tensor& x, const std::string& name,
 /// x (N, S, T, W), S the tokens a frame -> (N, P, T, K, D).
 at::Tensor Generator::poses(const at::Tensor& x) const {
     const auto n = x.size(0), streams = x.size(1), t = x.size(2), parting = settings_.persons / streams;
-    const std::int64_t joints = settings_.joints(), numbers = settings_.numbers;
-    const auto part = [&](const at::Tensor& v, std::int64_t nodes) {  // persons out of the last axis
-        return v.view({n, streams, t, parting, nodes, -1})
+    const std::int64_t nodes = settings_.nodes(), numbers = settings_.numbers();
+    const auto part = [&](const at::Tensor& v, std::int64_t of_each) {  // persons out of the last axis
+        return v.view({n, streams, t, parting, of_each, -1})
             .transpose(2, 3)
-            .reshape({n, settings_.persons, t, nodes, -1});
+            .reshape({n, settings_.persons, t, of_each, -1});
     };
-    if (settings_.body == Body::transformer) return part(linear(x, "head"), joints);
+    if (settings_.body == Body::transformer) return part(linear(x, "head"), nodes);
     const auto coarse = part(linear(x, "to_graph"), to_middle_.size(2));
     auto y = coarse.flatten(0, 1);
     y = graph_layer(y, "up1", to_middle_);
     y = graph_layer(y, "up2", to_fine_);
     y = graph_layer(y, "graph", within_fine_);
     const auto head = weights_.layer("head", is_training());
-    const auto each = head.weight.view({joints, numbers, -1}).transpose(1, 2);  // (K, fine, D)
-    const auto raw = at::matmul(y.unsqueeze(-2), each).squeeze(-2) + head.bias.view({joints, numbers});
-    return raw.view({n, settings_.persons, t, joints, numbers});
+    const auto each = head.weight.view({nodes, numbers, -1}).transpose(1, 2);  // (K, fine, D)
+    const auto raw = at::matmul(y.unsqueeze(-2), each).squeeze(-2) + head.bias.view({nodes, numbers});
+    return raw.view({n, settings_.persons, t, nodes, numbers});
 }
 
-/// The free joint as it is, the others as unit limbs or rotations.
-at::Tensor Generator::shaped(const at::Tensor& poses) const {
-    const std::int64_t free = settings_.free_joint, joints = settings_.joints();
+/// What the representation makes of the head's numbers (N, P, T, K, D); the free node keeps its position, and 0 behind it.
+at::Tensor Generator::finished(const at::Tensor& poses) const {
+    const auto& how = settings_.representation;
+    if (how.finish() == ingest::Finish::linear) return poses;
     const auto bent = poses.tanh();
-    const auto normal =
-        settings_.numbers == 6 ? orthonormal(bent) : bent / (bent.norm(2, {-1}, true) + length_epsilon);
-    return at::cat(
-        {normal.slice(3, 0, free), poses.slice(3, free, free + 1), normal.slice(3, free + 1, joints)}, 3);
+    const auto normal = how.finish() == ingest::Finish::orthonormal
+                            ? orthonormal(bent)
+                            : bent / (bent.norm(2, {-1}, true) + length_epsilon);
+    const auto free_node = how.free_node(settings_.nodes());
+    if (!free_node) return normal;
+    const std::int64_t free = *free_node, nodes = settings_.nodes(), behind = poses.size(4) - 3;
+    const auto position = at::constant_pad_nd(poses.slice(3, free, free + 1).slice(4, 0, 3), {0, behind});
+    return at::cat({normal.slice(3, 0, free), position, normal.slice(3, free + 1, nodes)}, 3);
 }
 
 at::Tensor Generator::forward(const at::Tensor& latent, const at::Tensor& labels) {

@@ -1,4 +1,4 @@
-// ActFormer's generator (DESIGN 4.5). Includes torch headers: for model/'s own sources and tests only.
+// ActFormer's generator (Xu, Song et al., ICCV 2023, section 3.2). Includes torch headers: for model/'s own sources and tests only.
 #pragma once
 
 #include <torch/nn/module.h>
@@ -38,7 +38,7 @@ class Generator : public torch::nn::Module {
     at::Tensor attention(const at::Tensor& x, const std::string& prefix) const;
     at::Tensor poses(const at::Tensor& x) const;
     at::Tensor graph_layer(const at::Tensor& x, const std::string& name, const at::Tensor& sums) const;
-    at::Tensor shaped(const at::Tensor& poses) const;
+    at::Tensor finished(const at::Tensor& poses) const;
 
     GeneratorSettings settings_;
     WeightStore weights_;

@@ -66,15 +66,15 @@ std::int64_t persons_a_token(const GeneratorSettings& s) {
 
 void add_head(List& list, const GeneratorSettings& s) {
     const std::int64_t parting = persons_a_token(s);
-    if (s.body == Body::transformer) return list.linear("head", parting * s.joints() * s.numbers, s.width);
+    if (s.body == Body::transformer) return list.linear("head", parting * s.nodes() * s.numbers(), s.width);
     const GraphBody channels;
     const auto coarse = static_cast<std::int64_t>(skeleton_levels(s.parents).coarse_kept.size());
     list.linear("to_graph", parting * coarse * channels.coarse, s.width);
     list.linear("up1", 2 * std::int64_t{channels.middle}, channels.coarse);
     list.linear("up2", 2 * std::int64_t{channels.fine}, channels.middle);
     list.linear("graph", 2 * std::int64_t{channels.fine}, channels.fine);
-    list.linear("head", s.joints() * s.numbers,
-                channels.fine);  // each joint its own: neighbours in the graph look alike
+    list.linear("head", s.nodes() * s.numbers(),
+                channels.fine);  // each node its own: neighbours in the graph look alike
 }
 
 std::int64_t trained_under(const std::vector<NetworkWeight>& weights, const std::string& prefix) {
@@ -82,6 +82,18 @@ std::int64_t trained_under(const std::vector<NetworkWeight>& weights, const std:
     for (const auto& weight : weights)
         if (weight.trained && weight.name.starts_with(prefix)) sum += weight.count();
     return sum;
+}
+
+const char* head_kind(ingest::Finish finish) {
+    switch (finish) {
+        case ingest::Finish::unit:
+            return "linear, tanh, unit limbs";
+        case ingest::Finish::orthonormal:
+            return "linear, tanh, Gram-Schmidt";
+        case ingest::Finish::linear:
+            break;
+    }
+    return "linear";
 }
 
 std::string layer_name(std::size_t i) {
@@ -168,7 +180,7 @@ std::vector<SummaryLine> generator_summary(const GeneratorSettings& s, std::uint
                          under(prefix + ".")});
     }
     lines.push_back({"norm", "layer norm, spectral norm", tokens, under("norm.")});
-    const std::vector<std::int64_t> motion{std::int64_t{s.persons} * s.numbers, t, s.joints()};
+    const std::vector<std::int64_t> motion{std::int64_t{s.persons} * s.numbers(), t, s.nodes()};
     if (s.body == Body::graphconv) {
         const auto levels = skeleton_levels(s.parents);
         const GraphBody c;
@@ -183,8 +195,7 @@ std::vector<SummaryLine> generator_summary(const GeneratorSettings& s, std::uint
         graph("up2", "graph convolution, upsampling", c.fine, levels.fine.nodes());
         graph("graph", "graph convolution", c.fine, levels.fine.nodes());
     }
-    lines.push_back({"head", s.numbers == 6 ? "linear, tanh, Gram-Schmidt" : "linear, tanh, unit limbs",
-                     motion, under("head.")});
+    lines.push_back({"head", head_kind(s.representation.finish()), motion, under("head.")});
     return lines;
 }
 
@@ -200,7 +211,7 @@ std::vector<SummaryLine> discriminator_summary(const DiscriminatorSettings& s, s
         if (seen > 1) out.insert(out.begin(), seen);
         return out;
     };
-    lines.push_back({"input", "with differences over time", shape(convolutions[0].in, s.joints()), 0});
+    lines.push_back({"input", "with differences over time", shape(convolutions[0].in, s.nodes()), 0});
     for (std::size_t i = 0; i < convolutions.size(); ++i) {
         const auto& conv = convolutions[i];
         t = conv.frames_out(t);

@@ -40,7 +40,7 @@ void ActformerLearner::step(std::uint64_t step, double rate_share) {
         const auto windows = feed_.batch(step * steps + i);
         labels = labels_of(windows, device_);
         const auto real = values_of(windows, std::int64_t{motions_.numbers} * motions_.persons,
-                                    settings_.frames, motions_.joints(), device_);
+                                    settings_.frames, motions_.nodes(), device_);
         gan_.step_discriminator(real, labels, step * (steps + 1) + i);
     }
     gan_.step_generator(labels, step * (steps + 1) + steps);

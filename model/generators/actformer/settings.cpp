@@ -36,13 +36,9 @@ void compare(const Config& config, std::uint32_t persons, std::size_t classes, c
                     wanted_classes);
 }
 
-void check_motion(const char* network, std::uint32_t joints, std::uint32_t persons, std::uint32_t classes,
-                  std::uint32_t numbers) {
-    if (joints < 2 || persons == 0 || classes == 0)
-        throw Error("{}: {} joints, {} persons and {} classes are too few", network, joints, persons,
-                    classes);
-    if (numbers != 3 && numbers != 6)
-        throw Error("{}: a joint has 3 numbers (a limb vector) or 6 (a rotation), not {}", network, numbers);
+void check_motion(const char* network, std::uint32_t nodes, std::uint32_t persons, std::uint32_t classes) {
+    if (nodes < 2 || persons == 0 || classes == 0)
+        throw Error("{}: {} nodes, {} persons and {} classes are too few", network, nodes, persons, classes);
 }
 
 }  // namespace
@@ -52,9 +48,7 @@ std::uint32_t GeneratorSettings::hidden() const {
 }
 
 void check(const GeneratorSettings& s) {
-    check_motion("generator", s.joints(), s.persons, s.classes, s.numbers);
-    if (s.free_joint >= s.joints())
-        throw Error("generator: joint {} is none of the {}", s.free_joint, s.joints());
+    check_motion("generator", s.nodes(), s.persons, s.classes);
     if (s.heads == 0 || s.width == 0 || s.width % s.heads != 0)
         throw Error("generator: heads: {} do not divide width: {}; as in width: {}", s.heads, s.width,
                     std::max(1U, s.width / std::max(1U, s.heads)) * std::max(1U, s.heads));
@@ -68,7 +62,8 @@ void check(const GeneratorSettings& s) {
 }
 
 void check(const DiscriminatorSettings& s) {
-    check_motion("discriminator", s.joints(), s.persons, s.classes, s.numbers);
+    check_motion("discriminator", s.nodes(), s.persons, s.classes);
+    if (s.numbers == 0) throw Error("discriminator: a node must have numbers");
     if (s.width == 0) throw Error("discriminator: d_width must not be 0");
 }
 
@@ -98,17 +93,15 @@ std::vector<Key> network_keys() {
          persons_names}};
 }
 
-GeneratorSettings generator_settings(const Config& config, const ingest::Topology& topology,
-                                     std::uint32_t persons, std::size_t classes, std::uint32_t numbers,
-                                     const std::string& dataset) {
+GeneratorSettings generator_settings(const Config& config, ingest::Representation representation,
+                                     const ingest::Topology& topology, std::uint32_t persons,
+                                     std::size_t classes, const std::string& dataset) {
     compare(config, persons, classes, dataset);
     GeneratorSettings s;
-    s.parents = topology.parents;
+    s.parents = representation.node_parents(topology);
     s.persons = persons;
     s.classes = static_cast<std::uint32_t>(classes);
-    s.numbers = numbers;
-    s.free_joint =
-        numbers == 6 ? s.joints() - 1 : 0;  // rotations carry the position behind them (DESIGN 4.8)
+    s.representation = representation;
     s.frames = whole(config, "frames");
     s.width = whole(config, "width");
     s.heads = whole(config, "heads");
@@ -125,15 +118,15 @@ GeneratorSettings generator_settings(const Config& config, const ingest::Topolog
     return s;
 }
 
-DiscriminatorSettings discriminator_settings(const Config& config, const ingest::Topology& topology,
-                                             std::uint32_t persons, std::size_t classes,
-                                             std::uint32_t numbers, const std::string& dataset) {
+DiscriminatorSettings discriminator_settings(const Config& config, ingest::Representation representation,
+                                             const ingest::Topology& topology, std::uint32_t persons,
+                                             std::size_t classes, const std::string& dataset) {
     compare(config, persons, classes, dataset);
     DiscriminatorSettings s;
-    s.parents = topology.parents;
+    s.parents = representation.node_parents(topology);
     s.persons = persons;
     s.classes = static_cast<std::uint32_t>(classes);
-    s.numbers = numbers;
+    s.numbers = representation.numbers();
     s.width = whole(config, "d_width");
     s.persons_in = named<PersonsInD>(config, "d_persons", persons_names);
     check(s);

@@ -1,11 +1,11 @@
-// What ActFormer's generator and discriminator are made of (DESIGN 4.4 to 4.6), and the configuration's keys that say so.
+// What ActFormer's generator and discriminator are made of (Xu, Song et al., ICCV 2023, section 3), and the configuration's keys that say so.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "ingest/dataset/topology.hpp"
+#include "ingest/dataset/representation.hpp"
 #include "model/train/config.hpp"
 
 namespace actformer::model {
@@ -38,15 +38,14 @@ enum class Interaction {
 
 enum class Body {
     transformer,  ///< a frame's token gives its pose in one linear layer
-    graphconv     ///< a frame's token becomes the coarse graph; graph convolutions upsample it to the joints
+    graphconv     ///< a frame's token becomes the coarse graph; graph convolutions upsample it to the nodes
 };
 
 struct GeneratorSettings {
-    std::vector<int> parents;  ///< -1 for the root
+    std::vector<int> parents;  ///< of the nodes of the representation, -1 for the root
+    ingest::Representation representation;
     std::uint32_t persons = 1, classes = 0;
-    std::uint32_t numbers = 3;     ///< a joint: 3 for limb vectors, 6 for rotations
-    std::uint32_t free_joint = 0;  ///< the joint that carries a position and is not normalised
-    std::uint32_t frames = 60;     ///< of the table of positions: no motion can be longer
+    std::uint32_t frames = 60;  ///< of the table of positions: no motion can be longer
     std::uint32_t width = 200, heads = 8, depth = 2;
     double mlp_ratio = 2;
     PriorSettings prior;
@@ -54,8 +53,9 @@ struct GeneratorSettings {
     Interaction interaction = Interaction::iformer;
     Body body = Body::transformer;
 
-    std::uint32_t joints() const { return static_cast<std::uint32_t>(parents.size()); }
-    std::uint32_t hidden() const;  ///< width of the blocks' inner layer
+    std::uint32_t nodes() const { return static_cast<std::uint32_t>(parents.size()); }
+    std::uint32_t numbers() const { return representation.numbers(); }  ///< of a node
+    std::uint32_t hidden() const;                                       ///< width of the blocks' inner layer
     /// Persons that have tokens of their own: 1 where all share one.
     std::uint32_t tokens_a_frame() const { return interaction == Interaction::concat ? 1 : persons; }
     bool operator==(const GeneratorSettings&) const = default;
@@ -69,12 +69,13 @@ enum class PersonsInD {
 };
 
 struct DiscriminatorSettings {
-    std::vector<int> parents;
-    std::uint32_t persons = 1, classes = 0, numbers = 3;
-    std::uint32_t width = 32;  ///< channels of the first layer; each of the four behind it doubles them
+    std::vector<int> parents;  ///< as the generator's
+    std::uint32_t persons = 1, classes = 0;
+    std::uint32_t numbers = 3;  ///< of a node
+    std::uint32_t width = 32;   ///< channels of the first layer; each of the four behind it doubles them
     PersonsInD persons_in = PersonsInD::concat;
 
-    std::uint32_t joints() const { return static_cast<std::uint32_t>(parents.size()); }
+    std::uint32_t nodes() const { return static_cast<std::uint32_t>(parents.size()); }
     std::uint32_t features() const { return 16 * width; }
     bool operator==(const DiscriminatorSettings&) const = default;
 };
@@ -91,11 +92,11 @@ std::vector<Key> network_keys();
 
 /// The networks of a configuration that holds network_keys(), for a dataset named `dataset` in complaints. Throw Error where
 /// the configuration asks for other persons or classes, or for what cannot be built (heads that do not divide the width).
-GeneratorSettings generator_settings(const Config& config, const ingest::Topology& topology,
-                                     std::uint32_t persons, std::size_t classes, std::uint32_t numbers,
-                                     const std::string& dataset);
-DiscriminatorSettings discriminator_settings(const Config& config, const ingest::Topology& topology,
-                                             std::uint32_t persons, std::size_t classes,
-                                             std::uint32_t numbers, const std::string& dataset);
+GeneratorSettings generator_settings(const Config& config, ingest::Representation representation,
+                                     const ingest::Topology& topology, std::uint32_t persons,
+                                     std::size_t classes, const std::string& dataset);
+DiscriminatorSettings discriminator_settings(const Config& config, ingest::Representation representation,
+                                             const ingest::Topology& topology, std::uint32_t persons,
+                                             std::size_t classes, const std::string& dataset);
 
 }  // namespace actformer::model

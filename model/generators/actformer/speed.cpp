@@ -63,12 +63,13 @@ GanSettings settings_of(const SpeedRequest& request) {
 
 SpeedTest::Parts::Parts(const SpeedRequest& wanted)
     : request(wanted),
-      generator(generator_settings(presets(), ingest::ntu25(), wanted.persons, wanted.classes, 3, "speed")),
-      discriminator(
-          discriminator_settings(presets(), ingest::ntu25(), wanted.persons, wanted.classes, 3, "speed")),
+      generator(generator_settings(presets(), ingest::Representation::limb, ingest::ntu25(), wanted.persons,
+                                   wanted.classes, "speed")),
+      discriminator(discriminator_settings(presets(), ingest::Representation::limb, ingest::ntu25(),
+                                           wanted.persons, wanted.classes, "speed")),
       gan(settings_of(wanted), generator, discriminator, at::kCPU, processes),
       maker(gan.generator(), 0),
-      real(at::randn({wanted.batch, 3 * wanted.persons, wanted.frames, generator.joints()})),
+      real(at::randn({wanted.batch, generator.numbers() * wanted.persons, wanted.frames, generator.nodes()})),
       labels(at::randint(wanted.classes, {wanted.batch}, at::kLong)) {}
 
 SpeedTest::SpeedTest(const SpeedRequest& request) {

@@ -38,7 +38,7 @@ std::vector<double> betweenness(const NodeGraph& graph) {
     return out;
 }
 
-/// What DESIGN 4.6 compares, the larger the better.
+/// What is compared, the larger the better.
 std::array<double, 6> worth(const NodeGraph& graph, const Nodes& set, const std::vector<double>& between) {
     const auto lengths = path_lengths(graph);
     const auto size = static_cast<double>(set.size());
@@ -102,6 +102,16 @@ TEST(Coarsening, KeepsThePublishedJointsOfNtu) {
     Nodes coarse;
     for (const auto node : levels.coarse_kept) coarse.push_back(levels.middle_kept[node]);
     EXPECT_EQ(coarse, (Nodes{7, 11, 13, 17, 20}));
+}
+
+/// SMPL's 24 joints with the translation as a 25th node on the pelvis; igraph's measures give these sets.
+TEST(Coarsening, KeepsTheTranslationOfSmpl) {
+    const auto levels = skeleton_levels(
+        {-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19, 20, 21, 0});
+    EXPECT_EQ(levels.middle_kept, (Nodes{1, 2, 3, 7, 8, 9, 15, 16, 17, 20, 21, 24}));
+    Nodes coarse;
+    for (const auto node : levels.coarse_kept) coarse.push_back(levels.middle_kept[node]);
+    EXPECT_EQ(coarse, (Nodes{1, 8, 9, 20, 21}));
 }
 
 TEST(Coarsening, ChoosesTheBestOfAllSets) {

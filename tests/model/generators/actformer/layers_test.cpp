@@ -187,20 +187,73 @@ TEST_F(ActformerLayers, Float32RoundsAsShortSumsDo) {
     EXPECT_LT(rounding(gradients(at::kFloat), gradients(at::kDouble)), 6);
 }
 
-TEST_F(ActformerLayers, PosesAreUnitLimbs) {
-    const auto x = random({2, 3, 8, 12});
-    const auto norm = random_norm(12), head = random_linear(3 * 18, 12);
-    const auto y = fused_poses(x, norm, head, 4);
-    const auto raw = at::linear(norm_of(x.slice(2, 1), norm), head.weight, head.bias).view({2, 3, 7, 18, 3});
+namespace {
+
+/// Raw numbers (N, P, T, K, D) of every node but the free one, through tanh, in libtorch's operators.
+at::Tensor plain_finish(const at::Tensor& raw, actformer::ingest::Representation how) {
     const auto bent = raw.tanh();
-    auto expected = bent / (bent.norm(2, {-1}, true) + 1e-4);
-    expected = at::cat({expected.slice(3, 0, 4), raw.slice(3, 4, 5), expected.slice(3, 5)}, 3);
-    expect_near(y, expected.permute({0, 1, 4, 2, 3}).reshape({2, 9, 7, 18}), 1e-12);
-    expect_gradients(
-        [&](const auto& in) {
-            return fused_poses(in[0], {in[1], in[2]}, {in[3], in[4]}, 4);
-        },
-        {x, norm.weight, norm.bias, head.weight, head.bias});
+    const auto length = [](const at::Tensor& v) { return v.norm(2, {-1}, true); };
+    if (how == actformer::ingest::Representation::limb) return bent / (length(bent) + 1e-4);
+    const auto a = bent.slice(4, 0, 3), b = bent.slice(4, 3, 6);
+    const auto first = a / length(a), rest = b - (b * first).sum(4, true) * first;
+    return at::cat({first, rest / length(rest)}, 4);
+}
+
+/// The same with the free node's position beside 0, and persons and numbers together, (N, P*D, T, K).
+at::Tensor plain_poses(const at::Tensor& x, const LinearTensors& norm, const LinearTensors& head,
+                       actformer::ingest::Representation how) {
+    const auto n = x.size(0), p = x.size(1), t = x.size(2) - 1, d = std::int64_t{how.numbers()},
+               k = head.weight.size(0) / d;
+    const auto raw = at::linear(norm_of(x, norm).slice(2, 1), head.weight, head.bias).view({n, p, t, k, d});
+    auto motion = raw;
+    if (how != actformer::ingest::Representation::xyz) {
+        const std::int64_t free = how.free_node(static_cast<std::uint32_t>(k)).value();
+        const auto finished = plain_finish(raw, how);
+        const auto position = raw.slice(3, free, free + 1).slice(4, 0, 3);
+        motion = at::cat(
+            {finished.slice(3, 0, free), at::cat({position, at::zeros({n, p, t, 1, d - 3}, x.options())}, 4),
+             finished.slice(3, free + 1)},
+            3);
+    }
+    return motion.permute({0, 1, 4, 2, 3}).reshape({n, p * d, t, k});
+}
+
+}  // namespace
+
+TEST_F(ActformerLayers, PosesAreFinishedAsTheirRepresentationHasThem) {
+    for (const auto how : actformer::ingest::Representation::all()) {
+        constexpr std::int64_t nodes = 19;  // no multiple of any vector's length
+        const auto x = random({2, 2, 6, 20});
+        const auto norm = random_norm(20), head = random_linear(nodes * how.numbers(), 20);
+        const auto y = fused_poses(x, norm, head, how);
+        expect_near(y, plain_poses(x, norm, head, how), 1e-12);
+        {
+            const at::NoGradGuard no_gradients;
+            expect_near(fused_poses(x, norm, head, how), y, 0);
+        }
+        expect_gradients(
+            [&](const auto& in) {
+                return fused_poses(in[0], {in[1], in[2]}, {in[3], in[4]}, how);
+            },
+            {x, norm.weight, norm.bias, head.weight, head.bias});
+    }
+}
+
+TEST_F(ActformerLayers, PosesAreFiniteWhereADirectionIsLost) {
+    // All numbers of a node 0, and for rotations a second row along the first.
+    for (const auto how : actformer::ingest::Representation::all()) {
+        const auto d = std::int64_t{how.numbers()};
+        const auto x = random({1, 1, 4, 20});
+        auto weight = at::zeros({9 * d, 20}, at::kDouble), bias = at::zeros({9 * d}, at::kDouble);
+        if (d == 6) bias.slice(0, 6, 12).copy_(at::tensor({1.0, 2.0, 3.0, 1.0, 2.0, 3.0}, at::kDouble));
+        weight.set_requires_grad(true);
+        bias.set_requires_grad(true);
+        const auto y = fused_poses(x, random_norm(20), {weight, bias}, how);
+        EXPECT_TRUE(at::isfinite(y).all().item<bool>()) << how.name();
+        y.square().sum().backward();
+        EXPECT_TRUE(at::isfinite(bias.grad()).all().item<bool>()) << how.name();
+        EXPECT_TRUE(at::isfinite(weight.grad()).all().item<bool>()) << how.name();
+    }
 }
 
 TEST_F(ActformerLayers, MotionInputAppendsDifferences) {

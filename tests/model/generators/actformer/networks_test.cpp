@@ -60,7 +60,7 @@ std::vector<Networks> switched() {
     const auto add = [&](std::uint32_t persons, const auto& change) {
         Networks networks{tiny_generator(persons), tiny_discriminator(persons)};
         change(networks);
-        networks.d.numbers = networks.g.numbers;
+        networks.d.numbers = networks.g.numbers();
         all.push_back(networks);
     };
     add(1, [](Networks&) {});
@@ -68,11 +68,14 @@ std::vector<Networks> switched() {
     add(1, [](Networks& n) { n.g.positions = Positions::fixed; });
     add(1, [](Networks& n) { n.g.prior.kind = PriorKind::gaussian; });
     add(1, [](Networks& n) { n.g.body = Body::graphconv; });
-    add(1, [](Networks& n) {
-        n.g.numbers = 6;
-        n.g.free_joint = 7;
-    });
+    add(1, [](Networks& n) { n.g.representation = ingest::Representation::rot6d; });
+    add(1, [](Networks& n) { n.g.representation = ingest::Representation::xyz; });
     add(2, [](Networks&) {});
+    add(2, [](Networks& n) { n.g.representation = ingest::Representation::rot6d; });
+    add(2, [](Networks& n) {
+        n.g.representation = ingest::Representation::xyz;
+        n.g.body = Body::graphconv;
+    });
     add(2, [](Networks& n) {
         n.g.positions = Positions::concat;
         n.g.prior.streams = 2;
@@ -96,8 +99,7 @@ std::vector<Networks> switched() {
     });
     add(2, [](Networks& n) {
         n.g.body = Body::graphconv;
-        n.g.numbers = 6;
-        n.g.free_joint = 7;
+        n.g.representation = ingest::Representation::rot6d;
     });
     return all;
 }
@@ -107,7 +109,7 @@ at::Tensor random_latent(const GeneratorSettings& s, std::int64_t samples, std::
 }
 
 at::Tensor random_motion(const DiscriminatorSettings& s, std::int64_t samples, std::int64_t frames) {
-    return at::randn({samples, s.persons * s.numbers, frames, s.joints()});
+    return at::randn({samples, s.persons * s.numbers, frames, s.nodes()});
 }
 
 at::Tensor some_labels(std::int64_t samples) {
@@ -244,7 +246,7 @@ TEST_F(ActformerNetworks, ThePapersSizeAgreesInFloat) {
                 1e-6);  // in place, and with what is kept for the way back
 }
 
-TEST_F(ActformerNetworks, GeneratedLimbsHaveUnitLength) {
+TEST_F(ActformerNetworks, GeneratedLimbsAndRotationsAreUnitVectors) {
     auto settings = tiny_generator(2);
     const at::NoGradGuard no_gradients;
     const auto limbs = Generator(settings, 1).forward(random_latent(settings, 3, 9), some_labels(3));
@@ -253,14 +255,16 @@ TEST_F(ActformerNetworks, GeneratedLimbsHaveUnitLength) {
     EXPECT_GT(lengths.min().item<double>(), 0.9);
     EXPECT_LE(lengths.max().item<double>(), 1 + 1e-6);
 
-    settings.numbers = 6;
-    settings.free_joint = 7;
+    settings.representation = ingest::Representation::rot6d;
     const auto rotations = Generator(settings, 1).forward(random_latent(settings, 3, 9), some_labels(3));
     const auto six = rotations.view({3, 2, 6, 9, 8}).slice(4, 0, 7);
     const auto a = six.slice(2, 0, 3), b = six.slice(2, 3, 6);
     expect_near(a.norm(2, {2}), at::ones({3, 2, 9, 7}), 1e-5);
     expect_near(b.norm(2, {2}), at::ones({3, 2, 9, 7}), 1e-5);
     expect_near((a * b).sum(2), at::zeros({3, 2, 9, 7}), 1e-5);
+    const auto translation = rotations.view({3, 2, 6, 9, 8}).select(4, 7);
+    expect_near(translation.slice(2, 3), at::zeros({3, 2, 3, 9}), 0);
+    EXPECT_GT(translation.slice(2, 0, 3).abs().max().item<double>(), 0);
 }
 
 TEST_F(ActformerNetworks, SpectralNormsAreTheSvdsAfterManySteps) {
@@ -315,8 +319,7 @@ TEST_F(ActformerNetworks, RefuseWhatTheyCannotTake) {
     EXPECT_THROW(d.forward(at::randn({2, 6, 16, 7}), some_labels(2)), Error);
     EXPECT_NO_THROW(d.forward(random_motion(d.settings(), 2, 16), some_labels(2)));
     for (const auto& change : std::vector<std::function<void(GeneratorSettings&)>>{
-             [](auto& s) { s.heads = 5; }, [](auto& s) { s.width = 0; }, [](auto& s) { s.numbers = 4; },
-             [](auto& s) { s.free_joint = 8; }, [](auto& s) { s.parents = {-1}; },
+             [](auto& s) { s.heads = 5; }, [](auto& s) { s.width = 0; }, [](auto& s) { s.parents = {-1}; },
              [](auto& s) { s.classes = 0; }, [](auto& s) { s.prior.streams = 3; },
              [](auto& s) { s.prior.length_scale = 0; }}) {
         auto settings = tiny_generator(2);
@@ -351,8 +354,8 @@ TEST_F(ActformerNetworks, AgreeWithNumPy) {
         const nlohmann::json about{
             {"parents", gs.parents},
             {"persons", gs.persons},
-            {"numbers", gs.numbers},
-            {"free_joint", gs.free_joint},
+            {"numbers", gs.numbers()},
+            {"representation", gs.representation.name()},
             {"width", gs.width},
             {"heads", gs.heads},
             {"depth", gs.depth},

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""ActFormer's networks in NumPy, written from DESIGN 4.5 and 4.6 alone: loops over samples, persons, heads and taps.
+"""ActFormer's networks in NumPy, written from the paper alone (Xu, Song et al., ICCV 2023): loops over samples, persons, heads and taps.
 
 usage: oracle.py FILE.h5 OUT.h5
 FILE.h5 holds the attribute `case` (JSON), the weights under their names, `latent`, `labels`, `motion`; OUT.h5 gets `motion`
@@ -122,12 +122,15 @@ def graph_layer(net, x, name, sums):
 
 
 def pose(case, raw):
-    """raw (joints, numbers)"""
+    """raw (nodes, numbers)"""
+    how = case['representation']
+    if how == 'xyz':
+        return raw
     out = np.zeros_like(raw)
     for k in range(len(raw)):
-        if k == case['free_joint']:
-            out[k] = raw[k]
-        elif case['numbers'] == 3:
+        if k == (0 if how == 'limb' else len(raw) - 1):
+            out[k, :3] = raw[k, :3]
+        elif how == 'limb':
             bent = np.tanh(raw[k])
             out[k] = bent / (np.linalg.norm(bent) + 1e-4)
         else:

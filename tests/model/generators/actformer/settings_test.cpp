@@ -16,6 +16,7 @@ using namespace actformer::test;
 
 namespace {
 
+constexpr auto limb = ingest::Representation::limb;
 const std::string configs = source("model/configs/");
 
 Config with(const std::vector<std::string>& assignments) {
@@ -28,8 +29,8 @@ void expect_refused(const std::vector<std::string>& assignments, std::uint32_t p
                     const std::vector<std::string>& words) {
     try {
         const auto config = with(assignments);
-        generator_settings(config, ingest::ntu25(), persons, classes, 3, "ntu");
-        discriminator_settings(config, ingest::ntu25(), persons, classes, 3, "ntu");
+        generator_settings(config, limb, ingest::ntu25(), persons, classes, "ntu");
+        discriminator_settings(config, limb, ingest::ntu25(), persons, classes, "ntu");
         ADD_FAILURE() << "taken";
     } catch (const Error& e) {
         for (const auto& word : words)
@@ -42,7 +43,7 @@ void expect_refused(const std::vector<std::string>& assignments, std::uint32_t p
 TEST(GeneratorSettings, SwitchesComeThrough) {
     const auto config = with({"prior=gaussian", "shared_z=false", "pe=independent", "interaction=concat",
                               "body=graphconv", "d_persons=selfatt", "d_width=16", "latent=32", "depth=3"});
-    const auto g = generator_settings(config, ingest::ntu25(), 2, 26, 3, "ntu");
+    const auto g = generator_settings(config, limb, ingest::ntu25(), 2, 26, "ntu");
     EXPECT_EQ(g.prior.kind, PriorKind::gaussian);
     EXPECT_EQ(g.prior.streams, 2U);
     EXPECT_EQ(g.prior.channels, 32U);
@@ -50,10 +51,20 @@ TEST(GeneratorSettings, SwitchesComeThrough) {
     EXPECT_EQ(g.interaction, Interaction::concat);
     EXPECT_EQ(g.body, Body::graphconv);
     EXPECT_EQ(interacting_blocks(g), (std::vector<bool>{false, false, false}));
-    const auto d = discriminator_settings(config, ingest::ntu25(), 2, 26, 3, "ntu");
+    const auto d = discriminator_settings(config, limb, ingest::ntu25(), 2, 26, "ntu");
     EXPECT_EQ(d.persons_in, PersonsInD::selfatt);
     EXPECT_EQ(d.features(), 256U);
-    EXPECT_EQ(generator_settings(with({}), ingest::ntu25(), 2, 26, 6, "smpl").free_joint, 24U);
+}
+
+TEST(GeneratorSettings, RotationsHaveANodeOfTranslationOnTheRoot) {
+    const ingest::Topology tree{{"root", "arm", "hand"}, {-1, 0, 1}};
+    const auto rotations = ingest::Representation::rot6d;
+    const auto g = generator_settings(with({}), rotations, tree, 2, 26, "smpl");
+    EXPECT_EQ(g.parents, (std::vector<int>{-1, 0, 1, 0}));
+    EXPECT_EQ(g.numbers(), 6U);
+    const auto d = discriminator_settings(with({}), rotations, tree, 2, 26, "smpl");
+    EXPECT_EQ(d.parents, g.parents);
+    EXPECT_EQ(d.numbers, 6U);
 }
 
 TEST(GeneratorSettings, RefusesWhatNoNetworkHas) {
