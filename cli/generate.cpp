@@ -29,13 +29,14 @@ void run(const Options& options) {
                                                   {"motions", made.motions},
                                                   {"classes", made.classes},
                                                   {"persons", made.persons},
-                                                  {"joints", made.nodes},
+                                                  {"numbers", made.numbers},
+                                                  {"nodes", made.nodes},
                                                   {"frames", made.frames}}
                                .dump(2));
     else
         fmt::print("{}: {} of {}, each ({}, {}, {})\n", file, counted(made.motions, "motion"),
-                   made.classes == 1 ? "1 class" : fmt::format("{} classes", made.classes), made.persons * made.numbers,
-                   made.nodes, made.frames);
+                   made.classes == 1 ? "1 class" : fmt::format("{} classes", made.classes),
+                   made.persons * made.numbers, made.nodes, made.frames);
 }
 
 }  // namespace

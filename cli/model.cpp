@@ -64,7 +64,8 @@ std::vector<model::NetworkSummary> networks_of(const Options& options) {
     }
     const auto [config, spec] = read(model::recogniser_config(), options);
     const auto settings = model::recogniser_settings(config);
-    const auto network = model::network_for(settings, spec.topology, spec.persons, spec.classes, spec.where);
+    const auto network = model::network_for(settings, spec.representation, spec.topology, spec.persons,
+                                            spec.classes, spec.where);
     return {{"recogniser", model::stgcn_summary(network, settings.frames)}};
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 using Shape = std::vector<std::uint64_t>;
 
-constexpr std::int64_t most_channels = 48, most_classes = 100'000, most_joints = 1000;
+constexpr std::int64_t most_channels = 96, most_classes = 100'000, most_joints = 1000;
 
 std::string text_of(const Shape& shape) {
     return fmt::format("({})", fmt::join(shape, ", "));

@@ -53,6 +53,15 @@ Motion MotionsFile::read(const std::string& name) const {
     return motion;
 }
 
+void MotionsFile::check_limbs() const {
+    if (tells_representation_ || representation_ != Representation::limb) return;
+    if (const auto motion = read(names_[0]); !has_unit_limbs(motion))
+        throw Error(
+            "{}: '{}' holds no limb vectors, as their lengths are not 1; where they are joint positions, set the file's "
+            "attribute representation to xyz, or make a dataset of them with actformer ingest motions",
+            path_.string(), motion.name);
+}
+
 struct MotionsWriter::Handle {
     explicit Handle(const std::filesystem::path& path) : aside(path), writer(aside.partial()) {}
     Aside aside;

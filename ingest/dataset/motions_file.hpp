@@ -28,7 +28,10 @@ class MotionsFile {
     Motion read(const std::string& name) const;
 
     Representation representation() const { return representation_; }
-    bool tells_representation() const { return tells_representation_; }
+
+    /// Throws Error, with the remedy, where the file does not tell its representation, is taken for one of limbs, and its first
+    /// motion has none.
+    void check_limbs() const;
 
     /// Whose motions they are, where the file tells.
     const std::optional<Subjects>& subjects() const { return subjects_; }

@@ -66,9 +66,9 @@ GenerateSummary generate_here(const GenerateRequest& request,
     GenerateSummary summary{0,
                             static_cast<std::uint32_t>(labels.size()),
                             spec.persons,
+                            spec.numbers(),
                             spec.nodes(),
-                            frames_wanted(request, maker->most_frames()),
-                            spec.numbers()};
+                            frames_wanted(request, maker->most_frames())};
     ingest::MotionsWriter writer(request.out);
     describe(writer, request, file);
     const auto all = std::uint64_t{request.per_class} * labels.size();

@@ -21,7 +21,7 @@ struct GenerateRequest {
 
 struct GenerateSummary {
     std::uint64_t motions = 0;
-    std::uint32_t classes = 0, persons = 0, nodes = 0, frames = 0, numbers = 0;
+    std::uint32_t classes = 0, persons = 0, numbers = 0, nodes = 0, frames = 0;
 };
 
 /// Writes motions A001_0, A001_1, ... of every class, and as attributes whose motions they are and where they come from. The

@@ -64,8 +64,9 @@ RecogniserSettings recogniser_settings(const Config& config) {
     return table().read(config);
 }
 
-StgcnSettings network_for(const RecogniserSettings& settings, const ingest::Topology& topology,
-                          std::uint32_t persons, std::size_t classes, const std::string& dataset) {
+StgcnSettings network_for(const RecogniserSettings& settings, ingest::Representation representation,
+                          const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
+                          const std::string& dataset) {
     if (settings.persons != 0 && settings.persons != persons)
         throw Error("{}: {} person{} a clip, but the configuration says persons: {}", dataset, persons,
                     persons == 1 ? "" : "s", settings.persons);
@@ -76,9 +77,10 @@ StgcnSettings network_for(const RecogniserSettings& settings, const ingest::Topo
         throw Error("{}: {} class{}; telling classes apart needs at least 2", dataset, classes,
                     classes == 1 ? "" : "es");
     StgcnSettings network;
-    network.channels = 3 * persons;
+    network.representation = representation;
+    network.channels = representation.numbers() * persons;
     network.classes = static_cast<std::uint32_t>(classes);
-    network.graph = eval::recogniser_graph(topology.parents);
+    network.graph = eval::recogniser_graph(representation.node_parents(topology));
     network.width = settings.width;
     network.dropout = settings.dropout;
     return network;

@@ -12,12 +12,13 @@
 namespace actformer::model {
 
 struct StgcnSettings {
-    std::uint32_t channels = 3;  ///< numbers a joint, those of all persons together
+    std::uint32_t channels = 3;  ///< numbers of a node, those of all persons together
     std::uint32_t classes = 0;
     eval::Graph graph;
     double width =
         1;  ///< times the public layers' 64, 128 and 256 channels, to the nearest 16: whole vectors
     double dropout = 0.5;  ///< behind every temporal convolution
+    ingest::Representation representation = {};
 
     bool operator==(const StgcnSettings&) const = default;
 };

@@ -10,6 +10,7 @@ void save_weights(const std::filesystem::path& path, const StgcnSettings& settin
                   const std::vector<std::string>& class_names) {
     auto file = weights_writer(arrays);
     file.attribute("kind", std::string("stgcn"));
+    file.attribute("representation", settings.representation.name());
     if (!class_names.empty()) file.attribute("class_names", class_names);
     file.attribute("channels", std::int64_t{settings.channels});
     file.attribute("classes", std::int64_t{settings.classes});

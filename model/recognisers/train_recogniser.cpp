@@ -35,8 +35,8 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
     const auto settings = recogniser_settings(config);
     const auto dataset = dataset_to_train_on(settings.data);
     const auto& header = dataset.header();
-    const auto network = network_for(settings, header.topology, header.persons, header.classes.size(),
-                                     dataset.folder().string());
+    const auto network = network_for(settings, header.representation, header.topology, header.persons,
+                                     header.classes.size(), dataset.folder().string());
     kernels::Device opencl(settings.opencl);
     const auto clips = ingest::load_view(opencl, dataset, settings.train_split).store;
     std::optional<kernels::ClipStore> test_clips;

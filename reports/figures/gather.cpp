@@ -151,16 +151,6 @@ struct Drawn {
     ingest::Subjects subjects;
 };
 
-/// Limbs in a file that does not call them so may be something else.
-void check_limbs(const ingest::Motion& motion, const fs::path& path) {
-    if (has_unit_limbs(motion)) return;
-    throw Error(
-        "{}: '{}' holds no limb vectors, as their lengths are not 1; where they are joint positions, set the "
-        "file's "
-        "attribute representation to xyz, or make a dataset of them with actformer ingest motions",
-        path.string(), motion.name);
-}
-
 /// From --bones where it is given, else from the file itself, else NTU's skeleton; usual lengths where none are known.
 ingest::Subjects subjects_for(const Drawn& drawn, const fs::path& path) {
     const auto how = drawn.file.representation();
@@ -194,8 +184,7 @@ Drawn drawn_from(const fs::path& path, const Wanted& wanted) {
                                            : ingest::Representation(ingest::Representation::limb));
     Drawn drawn{std::move(dataset), std::move(file), {}};
     const auto first = drawn.file.read(drawn.file.names()[0]);
-    if (drawn.file.representation() == ingest::Representation::limb && !drawn.file.tells_representation())
-        check_limbs(first, path);
+    drawn.file.check_limbs();
     drawn.subjects = subjects_for(drawn, path);
     const auto wanted_nodes = drawn.subjects.representation.nodes(drawn.subjects.topology);
     if (wanted_nodes != first.nodes)

@@ -68,7 +68,6 @@ TEST(MotionsFile, ReadsFilesThatTellNothingAsItIsTold) {
     const auto rotations = MotionsFile(path, Representation::rot6d).read("A001_0");
     EXPECT_EQ(rotations.persons, 1U);
     EXPECT_EQ(rotations.values, (std::vector<float>{0, 2, 4, 6, 8, 10, 1, 3, 5, 7, 9, 11}));
-    EXPECT_FALSE(MotionsFile(path).tells_representation());
     EXPECT_FALSE(MotionsFile(path).subjects());
 }
 
@@ -76,8 +75,27 @@ TEST(MotionsFile, BelievesItsAttributeMoreThanItsCaller) {
     const TempDir dir;
     const auto path = file_with(dir, 6, [](auto& f) { f.attribute("representation", std::string("rot6d")); });
     EXPECT_EQ(MotionsFile(path).representation(), Representation::rot6d);
-    EXPECT_TRUE(MotionsFile(path).tells_representation());
     EXPECT_EQ(MotionsFile(path).read("A001_0").persons, 1U);
+}
+
+TEST(MotionsFile, NoticesPositionsGivenAsLimbs) {
+    for (const bool told : {false, true})
+        for (const Representation how : {Representation::limb, Representation::xyz}) {
+            const TempDir dir;
+            MotionsWriter writer(dir / "m.h5");
+            if (told) writer.note("representation", how.name());
+            writer.add("A001_0", ArmsClip(0, 1, 30).in(how));
+            writer.finish();
+            const auto fault = error_of([&] { MotionsFile(dir / "m.h5").check_limbs(); });
+            if (told || how == Representation::limb) {
+                EXPECT_EQ(fault, "");
+                continue;
+            }
+            EXPECT_NE(fault.find("'A001_0' holds no limb vectors"), std::string::npos) << fault;
+            EXPECT_NE(
+                fault.find("representation to xyz, or make a dataset of them with actformer ingest motions"),
+                std::string::npos);
+        }
 }
 
 TEST(MotionsFile, RefusesChannelsThatDoNotFit) {
