@@ -1,4 +1,4 @@
-// Skeletons as graphs, their coarsening, and the fixed matrices that sum input nodes into output nodes (DESIGN 4.6).
+// Skeletons as graphs, their coarsening, and the fixed matrices that sum input nodes into output nodes.
 #pragma once
 
 #include <cstdint>

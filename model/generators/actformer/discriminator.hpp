@@ -1,4 +1,4 @@
-// ActFormer's discriminator (DESIGN 4.6). Includes torch headers: for model/'s own sources and tests only.
+// ActFormer's discriminator (Xu, Song et al., ICCV 2023). Includes torch headers: for model/'s own sources and tests only.
 #pragma once
 
 #include <torch/nn/module.h>

@@ -1,4 +1,4 @@
-// ActFormer's generator (Xu, Song et al., ICCV 2023, section 3.2). Includes torch headers: for model/'s own sources and tests only.
+// ActFormer's generator (Xu, Song et al., ICCV 2023). Includes torch headers: for model/'s own sources and tests only.
 #pragma once
 
 #include <torch/nn/module.h>

@@ -1,4 +1,4 @@
-// What ActFormer's generator and discriminator are made of (Xu, Song et al., ICCV 2023, section 3), and the configuration's keys that say so.
+// What ActFormer's generator and discriminator are made of (Xu, Song et al., ICCV 2023), and the configuration's keys that say so.
 #pragma once
 
 #include <cstdint>
