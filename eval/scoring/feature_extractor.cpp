@@ -2,10 +2,10 @@
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
-#include "ingest/dataset/motions_file.hpp"
 #include "eval/metrics/fid.hpp"
 #include "eval/run_weights.hpp"
 #include "eval/stgcn/graph.hpp"
+#include "ingest/dataset/motions_file.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -31,8 +31,6 @@ void FeatureExtractor::check_fits(const MotionsInfo& motions) const {
         throw Error(
             "{}: its motions are in {} and the recogniser {} takes {}; choose one trained on such motions",
             motions.source, motions.representation->name(), r.source, r.representation.name());
-    if (!motions.representation && r.representation == ingest::Representation::limb)
-        ingest::MotionsFile(motions.source).check_limbs();  // only a file leaves its representation open
     const bool apart = persons_ == Persons::apart;
     if (apart && motions.persons > 1 && r.channels != motions.channels / motions.persons)
         throw Error(
@@ -47,6 +45,8 @@ void FeatureExtractor::check_fits(const MotionsInfo& motions) const {
             "takes {} and {}; choose one trained on such motions",
             motions.source, motions.names.empty() ? "a clip" : "'" + motions.names[0] + "'", motions.channels,
             motions.joints, r.source, r.channels, r.joints());
+    if (!motions.representation && r.representation == ingest::Representation::limb)
+        ingest::MotionsFile(motions.source).check_limbs();  // only a file leaves its representation open
     if (!motions.parents.empty() && !same_tree(r.parents, motions.parents))
         throw Error(
             "{}: its skeleton is another tree than that of the recogniser {}; choose one trained on such "

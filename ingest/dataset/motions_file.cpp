@@ -57,7 +57,8 @@ void MotionsFile::check_limbs() const {
     if (tells_representation_ || representation_ != Representation::limb) return;
     if (const auto motion = read(names_[0]); !has_unit_limbs(motion))
         throw Error(
-            "{}: '{}' holds no limb vectors, as their lengths are not 1; where they are joint positions, set the file's "
+            "{}: '{}' holds no limb vectors, as their lengths are not 1; where they are joint positions, set "
+            "the file's "
             "attribute representation to xyz, or make a dataset of them with actformer ingest motions",
             path_.string(), motion.name);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "eval/stgcn/network.hpp"
+#include "ingest/dataset/representation.hpp"
 #include "model/nn/network.hpp"
 
 namespace actformer::model {

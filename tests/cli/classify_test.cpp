@@ -12,6 +12,7 @@
 #include "tests/support/plain_recogniser.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/toy_dataset.hpp"
+#include "tests/support/unit_limbs.hpp"
 
 using namespace actformer;
 using namespace actformer::test;
@@ -112,6 +113,7 @@ TEST_F(Classify, TakesMotionsWithoutLabels) {
         ingest::Motion motion{name, 20, 1, nodes, 3, {}};
         motion.values.resize(std::size_t{20} * nodes * 3);
         for (auto& v : motion.values) v = normal(random);
+        make_unit_limbs(motion);
         expected[name] = softmax_of_mean({plain(values_of(motion, 0, 20).data(), 20).logits});
         writer.add(name, motion);
     }

@@ -12,6 +12,7 @@
 #include "tests/support/command.hpp"
 #include "tests/support/plain_recogniser.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tests/support/unit_limbs.hpp"
 
 using namespace actformer;
 using namespace actformer::test;
@@ -43,6 +44,7 @@ struct Memory : testing::Test {
         motion.values.resize(std::size_t{length} * 25 * 3);
         for (std::uint32_t i = 0; i < count; ++i) {
             for (auto& v : motion.values) v = normal(random);
+            make_unit_limbs(motion);
             writer.add("A001_" + std::to_string(i), motion);
         }
         writer.finish();

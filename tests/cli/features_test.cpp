@@ -12,6 +12,7 @@
 #include "tests/support/command.hpp"
 #include "tests/support/plain_recogniser.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tests/support/unit_limbs.hpp"
 
 using namespace actformer;
 using namespace actformer::test;
@@ -26,6 +27,7 @@ ingest::Motion made_motion(std::uint32_t frames, std::uint32_t persons, std::uin
     ingest::Motion motion{"", frames, persons, joints, 3, {}};
     motion.values.resize(std::size_t{frames} * persons * joints * 3);
     for (auto& v : motion.values) v = normal(random);
+    make_unit_limbs(motion);
     return motion;
 }
 

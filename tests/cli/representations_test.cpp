@@ -154,8 +154,8 @@ void expect_report(const std::vector<std::unique_ptr<Chain>>& chains) {
 
 /// A recogniser's weights at random.
 std::string recogniser_for(const TempDir& dir, Representation how) {
-    auto weights =
-        eval::random_weights(how.numbers(), 3, eval::recogniser_graph(how, ArmsClip::topology()), 0.125, 1);
+    auto weights = eval::random_weights(
+        how.numbers(), 3, eval::recogniser_graph(how.node_parents(ArmsClip::topology())), 0.125, 1);
     weights.representation = how;
     const auto path = dir / (how.name() + "-eyes.h5");
     eval::write_weights(path, weights);

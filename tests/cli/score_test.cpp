@@ -13,6 +13,7 @@
 #include "ingest/dataset/motions_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tests/support/unit_limbs.hpp"
 
 using namespace actformer;
 using namespace actformer::test;
@@ -27,6 +28,7 @@ ingest::Motion made_motion(std::uint32_t frames, std::uint32_t persons, unsigned
     ingest::Motion motion{"", frames, persons, 25, 3, {}};
     motion.values.resize(std::size_t{frames} * persons * 25 * 3);
     for (auto& v : motion.values) v = normal(random);
+    make_unit_limbs(motion);
     return motion;
 }
 
