@@ -247,7 +247,7 @@ TEST(Stgcn, AgreesWithTheOracleBothWays) {
     for (std::int64_t n = 0; n < 3; ++n) {
         const auto values = x[n].permute({2, 0, 3, 1}).contiguous();  // (T, P, K, 3)
         clips.add("c" + std::to_string(n),
-                  {"", 64, 2, 25, {values.data_ptr<float>(), values.data_ptr<float>() + values.numel()}});
+                  {"", 64, 2, 25, 3, {values.data_ptr<float>(), values.data_ptr<float>() + values.numel()}});
     }
     clips.finish();
     for (const std::string weights : {"w.h5", "ours.h5"}) {
