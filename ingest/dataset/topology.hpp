@@ -24,11 +24,11 @@ struct Topology {
     bool operator==(const Topology&) const = default;
 };
 
-/// Limb parents of ntu25() (DESIGN 4.1).
+/// Limb parents of ntu25(), counted from 0; joint 0 is the root.
 constexpr std::array<int, 25> ntu25_parents{-1, 0,  20, 2, 20, 4,  5,  6, 20, 8, 9,  10, 0,
                                             12, 13, 14, 0, 16, 17, 18, 1, 7,  7, 11, 11};
 
-/// The 25 joints of Kinect v2 with the limb parents of DESIGN 4.1.
+/// The 25 joints of Kinect v2 with the limb parents of NTU RGB+D.
 const Topology& ntu25();
 
 }  // namespace actformer::ingest

@@ -1,4 +1,4 @@
-// A small sweep with a stand-in that trains and scores at once.
+// A small sweep whose program is a shell script that stands in for training and scoring.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Synthetic NTU clips: the same for everyone, well-formed, human, and each action like no other.
+// Synthetic NTU clips: reproducible, well-formed, anatomically possible, with actions that differ.
 #include "ingest/synth/ntu/ntu.hpp"
 
 #include <gtest/gtest.h>
