@@ -1,4 +1,4 @@
-// A small sweep whose program is a shell script that stands in for training and scoring.
+// A small sweep, and a shell script in place of the program that it runs.
 #pragma once
 
 #include <gtest/gtest.h>
