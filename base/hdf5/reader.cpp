@@ -1,9 +1,11 @@
 #include "base/hdf5/reader.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <limits>
 
 #include "base/hdf5/opening.hpp"
+#include "base/hdf5/variable_texts.hpp"
 
 namespace actformer::hdf5 {
 namespace {
@@ -51,26 +53,13 @@ bool compressed(hid_t plan) {
 // Deflate makes no more of a byte.
 constexpr std::uint64_t most_compressed = 1032;
 
-/// What texts of variable length may take: the library allocates what the file says.
-struct Allowance {
-    std::uint64_t left;
-
-    static void* take(std::size_t size, void* self) {
-        auto& left = static_cast<Allowance*>(self)->left;
-        if (size > left) return nullptr;
-        left -= size;
-        return std::malloc(size);
-    }
-    static void give(void* memory, void*) { std::free(memory); }
-};
-
 }  // namespace
 
 Reader::Reader(const std::filesystem::path& path)
     : path_(path.string()), file_(open_to_read(path)), bytes_(std::filesystem::file_size(path)) {}
 
 Reader::Reader(std::string_view image, const std::string& name)
-    : path_(name), file_(open_in_memory(image, name)), bytes_(image.size()) {}
+    : path_(name), image_(image), file_(open_in_memory(image, name)), bytes_(image.size()) {}
 
 std::vector<std::string> Reader::names() const {
     std::vector<std::string> names;
@@ -196,18 +185,28 @@ std::vector<std::string> Reader::read_strings(const std::string& name) const {
 }
 
 std::vector<std::string> Reader::read_variable_strings(const Array& array) const {
-    std::vector<char*> texts(array.numbers, nullptr);
-    if (texts.empty()) return {};
-    Allowance allowance{product(bytes_, 2)};  // several texts may share what is stored once, but seldom do
-    const auto transfer = checked(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "reading texts");
-    H5Pset_vlen_mem_manager(transfer.get(), Allowance::take, &allowance, Allowance::give, nullptr);
-    const bool read =
-        H5Dread(array.set.get(), array.type.get(), H5S_ALL, H5S_ALL, transfer.get(), texts.data()) >= 0;
-    std::vector<std::string> values;
-    for (const char* text : texts) values.emplace_back(text ? text : "");
-    for (char* text : texts) std::free(text);
-    if (!read) fail("'{}' cannot be read: damaged", array.name);
-    return values;
+    if (array.numbers == 0) return {};
+    const auto at = H5Dget_offset(array.set.get());
+    if (at == HADDR_UNDEF || H5Tget_size(array.type.get()) != 16)
+        fail("'{}' holds texts of variable length in pieces; store them at one length, or in one piece",
+             array.name);
+    std::vector<std::string> texts;
+    const auto file = [&](std::uint64_t offset, std::uint64_t size) { return bytes_at(offset, size); };
+    if (!read_variable_texts(bytes_at(at, array.numbers * 16), file, bytes_, texts) ||
+        texts.size() != array.numbers)
+        fail("'{}' cannot be read: damaged", array.name);
+    return texts;
+}
+
+std::string Reader::bytes_at(std::uint64_t offset, std::uint64_t size) const {
+    size = std::min(size, bytes_ - std::min(offset, bytes_));
+    if (!image_.empty()) return image_.substr(std::min<std::uint64_t>(offset, image_.size()), size);
+    std::string bytes(size, '\0');
+    std::ifstream file(path_, std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(offset));
+    file.read(bytes.data(), static_cast<std::streamsize>(size));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    return bytes;
 }
 
 struct Reader::Attribute {

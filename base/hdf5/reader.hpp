@@ -46,7 +46,7 @@ class Reader {
     /// `count` entries along the first axis, from `first` on. The array stays open for the next call.
     std::vector<float> read_rows(const std::string& name, std::uint64_t first, std::uint64_t count) const;
 
-    /// Of fixed or variable length.
+    /// Of fixed or variable length; of variable length in one piece, as h5py writes them unless told otherwise.
     std::vector<std::string> read_strings(const std::string& name) const;
 
     bool has_attribute(const std::string& name) const;
@@ -82,10 +82,12 @@ class Reader {
     Attribute open_attribute(const std::string& name, H5T_class_t kind, const char* what) const;
     void read_attribute(const Attribute& attribute, hid_t as, void* to, const std::string& name) const;
     void read_into(const Array& array, hid_t type, void* to) const;
+    std::string bytes_at(std::uint64_t offset, std::uint64_t size) const;  ///< fewer where the file ends
     std::string checksum_of(const Array& array, const See& see) const;
     std::vector<std::string> read_variable_strings(const Array& array) const;
 
     std::string path_;
+    std::string image_;  ///< of a file in memory
     Handle file_;
     std::uint64_t bytes_ = 0;  ///< of the file
     mutable std::map<std::string, Array> open_;

@@ -150,6 +150,41 @@ TEST_F(HostileFile, ExternalLinksAreRefusedByName) {
     EXPECT_FALSE(file.is_array("round about"));
 }
 
+TEST_F(HostileFile, TextsOfVariableLengthAreReadOnlyWhereTheyAre) {
+    const std::vector<std::string> texts{std::string(7777, 'x'), "", "short", std::string(3333, 'y')};
+    {
+        const hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+        const hdf5::Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+        H5Tset_size(type.get(), H5T_VARIABLE);
+        const hsize_t count = texts.size();
+        const hdf5::Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+        const hdf5::Handle set(
+            H5Dcreate2(file.get(), "name", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+            H5Dclose);
+        std::vector<const char*> values;
+        for (const auto& text : texts) values.push_back(text.c_str());
+        H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    }
+    EXPECT_EQ(hdf5::Reader(path).read_strings("name"), texts);
+    const auto whole = read_file(path);
+    EXPECT_EQ(hdf5::Reader(whole, "in memory").read_strings("name"), texts);
+    for (const std::uint32_t length : {7777, 3333})  // of the text, in its reference and in the heap
+        for (const std::uint32_t other : {0x70000000U, length + 1, length + 8}) {
+            auto bytes = whole;
+            for (std::size_t at = 0; at + 4 <= bytes.size(); ++at)
+                if (std::memcmp(&bytes[at], &length, 4) == 0) std::memcpy(&bytes[at], &other, 4);
+            write_file(path, bytes);
+            try {
+                const auto read =
+                    hdf5::Reader(path).read_strings("name");  // more of the heap, but of the heap
+                EXPECT_EQ(read.size(), texts.size());
+                EXPECT_LT(other, 10000U);
+            } catch (const Error& e) {
+                EXPECT_NE(std::string(e.what()).find("damaged"), std::string::npos) << e.what();
+            }
+        }
+}
+
 TEST_F(HostileFile, WhatIsNoFileIsRefusedAtOnce) {
     EXPECT_NE(refusal([&] { hdf5::Reader(dir / "none"); }).find("no such file"), std::string::npos);
     EXPECT_NE(refusal([&] { hdf5::Reader(dir.path()); }).find("not a file"), std::string::npos);
