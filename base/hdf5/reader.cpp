@@ -187,7 +187,7 @@ std::vector<std::string> Reader::read_strings(const std::string& name) const {
 std::vector<std::string> Reader::read_variable_strings(const Array& array) const {
     if (array.numbers == 0) return {};
     const auto at = H5Dget_offset(array.set.get());
-    if (at == HADDR_UNDEF || H5Tget_size(array.type.get()) != 16)
+    if (at == HADDR_UNDEF || H5Dget_storage_size(array.set.get()) != array.numbers * 16)
         fail("'{}' holds texts of variable length in pieces; store them at one length, or in one piece",
              array.name);
     std::vector<std::string> texts;
