@@ -175,7 +175,7 @@ TEST_F(IngestNtu, SkipsBadClipsAndNamesThem) {
           "A009.skeleton,broken,cannot be read: No such file"})
         EXPECT_NE(csv.find(row), std::string::npos) << row << " in\n" << csv;
     EXPECT_EQ(lines_in(csv), 12);
-    EXPECT_NE(result.output.find("8 files broken"), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("8 clips broken"), std::string::npos) << result.output;
 }
 
 TEST_F(IngestNtu, StopsAtABadClipWhenStrict) {
@@ -331,7 +331,7 @@ TEST_F(IngestNtu, FindsFlippedBytes) {
         EXPECT_LT(exports(exported), 2) << "no crash";
     }
     EXPECT_GE(found, 30) << "nine bytes in ten are motion";
-    write_file(shard, whole.substr(0, whole.size() - 1));
+    write_file(shard, whole.substr(0, whole.size() / 2));
     EXPECT_NE(run_actformer("inspect --verify " + out()).output.find("damaged"), std::string::npos);
     fs::remove(shard);
     EXPECT_NE(run_actformer("inspect --verify " + out()).output.find("missing"), std::string::npos);
