@@ -86,14 +86,19 @@ Json to_json(const ingest::Dataset& dataset) {
             {"classes", classes}};
 }
 
-void verify(const std::vector<std::filesystem::path>& folders) {
+/// Tells which kind of checksums the datasets have.
+std::string verify(const std::vector<std::filesystem::path>& folders) {
+    bool of_bytes = false;
     for (const auto& folder : folders) {
-        const auto faults = ingest::verify_dataset(folder);
+        const auto [faults, checksums_of_bytes] = ingest::verify_dataset(folder);
+        of_bytes |= checksums_of_bytes;
         for (std::size_t i = 1; i < faults.size(); ++i) fmt::print(stderr, "{}\n", faults[i]);
         if (!faults.empty())
             throw Error("{}{}; ingest the raw data again", faults[0],
                         faults.size() > 1 ? fmt::format(" ({} more above)", faults.size() - 1) : "");
     }
+    return of_bytes ? "checksums are of the files' bytes (format 1: opening a shard for writing breaks them)"
+                    : "checksums are of contents";
 }
 
 }  // namespace
@@ -114,7 +119,7 @@ void add_inspect(CLI::App& app) {
     examples(command, "  actformer inspect ntu\n  actformer inspect ntu/ntu-2p --verify --classes\n");
     command->callback([options] {
         const auto folders = ingest::datasets_at(options->dataset);
-        if (options->verify) verify(folders);
+        const auto verified = options->verify ? verify(folders) : std::string();
         Json json = Json::array();
         for (const auto& folder : folders) {
             const ingest::Dataset dataset(folder);
@@ -125,7 +130,7 @@ void add_inspect(CLI::App& app) {
         }
         if (options->json) fmt::print("{}\n", (json.size() == 1 ? json[0] : json).dump(2));
         if (options->verify && !options->json)
-            fmt::print("verified: every checksum, offset and number is right\n");
+            fmt::print("verified: every checksum, offset and number is right; {}\n", verified);
     });
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "base/process/process.hpp"
 #include "cli/program.hpp"
 
 namespace {
@@ -21,8 +22,7 @@ constexpr Subprogram subprograms[] = {
     {"model", "actformer-train", "Print a configuration's layers, shapes and parameter counts"}};
 
 std::filesystem::path path_of(const Subprogram& sub) {
-    std::error_code error;
-    return std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / sub.program;
+    return actformer::program_folder() / sub.program;
 }
 
 /// OpenMP's threads spin while they wait, and on a machine with other work starve it and one another: training runs two to

@@ -60,8 +60,8 @@ class Buffer {
     /// `spare` values behind the others may be read by kernels, which make no use of them.
     Buffer(Device& device, std::size_t count, std::size_t spare = 0) : device_(&device), count_(count) {
         try {
-            // OpenCL has no empty buffers; one spare value stands for none. Memory that the host reaches is taken at once,
-            // so that too little of it is an error here; PoCL takes other memory at its first use, and ends the process.
+            // OpenCL has no empty buffers: an empty one has a spare value. PoCL allocates memory that the host reaches at once,
+            // and reports here where there is too little; other memory it allocates at first use, and ends the process.
             const cl_mem_flags where = device.info().shares_memory ? CL_MEM_ALLOC_HOST_PTR : 0;
             memory_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE | where,
                                  std::max<std::size_t>(count + spare, 1) * sizeof(T));

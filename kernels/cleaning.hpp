@@ -1,8 +1,8 @@
-// Cleaning of motion capture on the device: gap filling, smoothing, limb-vector normalisation (DESIGN 4.2).
+// Cleaning of motion capture on the device: gap filling, smoothing, limb-vector normalisation.
 //
-// All three steps but the last are linear and treat joints alike, so they run on limbs: joint 0 is the root's position
-// and joint k the vector from k's parent to k, in metres. Taking that difference first, in double where the
-// text is read, keeps short limbs exact to float32 however far from the camera a body stands.
+// Filling and smoothing are linear and treat all joints alike, so they run on limbs: joint 0 is the root's position and
+// joint k the vector from k's parent to k, in metres. The reader takes that difference in double: short limbs are then
+// exact to float32 however far from the camera a body stands.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What a device's arithmetic units can do at most, measured.
+// A device's peak arithmetic rate, measured.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The building blocks of a spatial-temporal graph convolutional network on a device (DESIGN 4.8).
+// The layers of the spatial-temporal graph convolutional network (ST-GCN, Yan et al. 2018) on a device.
 //
 // Activations lie in panels, one a joint: row n * T + t holds the channels of frame t of sequence n. Channels are padded
 // with zeros to a multiple of Tiles::block() and rows to a multiple of Tiles::rows, so that every step runs in whole vectors.

@@ -1,4 +1,4 @@
-// The user's cache: what can be made again, kept to save the time.
+// The user's cache folder: results that can be computed again.
 #pragma once
 
 #include <filesystem>

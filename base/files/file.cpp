@@ -59,7 +59,8 @@ bool write_fully(int fd, std::string_view bytes) {
     return true;
 }
 
-// Copying much into the page cache costs a processor as much as reading ten times as many bytes of text, and drives that text out.
+// From here on direct writes pay: copying into the page cache costs as much processor time as parsing ten times as much text, and
+// evicts that text.
 constexpr std::size_t much = std::size_t{1} << 20;
 
 /// Writes whole blocks from the front of `bytes` past the page cache and removes them from it; none where the file system

@@ -9,7 +9,7 @@
 
 namespace actformer {
 
-/// What the zero bytes after a text in memory allow: readers may load this many bytes past its end.
+/// Zero bytes behind every text in memory: readers may load this far past its end.
 constexpr std::size_t text_padding = 64;
 
 /// The text of `path` in `scratch` (which only ever grows), followed by text_padding zero bytes.
@@ -20,7 +20,7 @@ std::string_view read_text(const std::filesystem::path& path, std::vector<char>&
 /// Calls `use` with a file's bytes in order, a megabyte or so at a time. Throws Error where it cannot be read.
 void read_in_pieces(const std::filesystem::path& path, const std::function<void(std::string_view)>& use);
 
-/// What devices want of what is written past the page cache: that it begins at such a block and is some of them long.
+/// Direct writes, past the page cache, begin at a multiple of this and are a multiple of it long.
 constexpr std::size_t direct_block = 4096;
 
 /// Writes `bytes` beside `path` and renames, so that `path` is whole or absent. Throws Error (no space, no right to write)

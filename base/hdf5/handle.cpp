@@ -24,7 +24,7 @@ Handle checked(hid_t id, herr_t (*close)(hid_t), const char* what) {
 }
 
 void silence() {
-    static const bool once = H5dont_atexit() >= 0;
+    static const bool once = H5dont_atexit() >= 0 && H5Lunregister(H5L_TYPE_EXTERNAL) >= 0;
     static_cast<void>(once);
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

@@ -53,8 +53,8 @@ using Shape = std::vector<hsize_t>;
 /// Throws Error, with `what` was tried, for an identifier that is none.
 Handle checked(hid_t id, herr_t (*close)(hid_t), const char* what);
 
-/// Keeps the library quiet: it would print its own stack of errors beside ours, and at exit complain of files that a full
-/// disk left open.
+/// Called before the library is used. Keeps it quiet: it would print its own stack of errors beside ours, and at exit complain of
+/// files that a full disk left open. Keeps it from following links into other files.
 void silence();
 
 }  // namespace actformer::hdf5

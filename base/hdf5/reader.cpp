@@ -1,9 +1,11 @@
 #include "base/hdf5/reader.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <fstream>
+#include <limits>
 
-#include "base/error.hpp"
+#include "base/hdf5/opening.hpp"
+#include "base/hdf5/variable_texts.hpp"
 
 namespace actformer::hdf5 {
 namespace {
@@ -24,19 +26,45 @@ herr_t add_name(hid_t, const char* name, const H5L_info_t*, void* names) {
     return 0;
 }
 
+/// a * b, or the largest number where that is less than the product.
+std::uint64_t product(std::uint64_t a, std::uint64_t b) {
+    std::uint64_t out = 0;
+    return __builtin_mul_overflow(a, b, &out) ? std::numeric_limits<std::uint64_t>::max() : out;
+}
+
+std::uint64_t product(const Shape& shape) {
+    std::uint64_t out = 1;
+    for (const auto extent : shape) out = product(out, extent);
+    return out;
+}
+
+/// Whether a chunk may be smaller in the file than in memory: the other two filters keep its size.
+bool compressed(hid_t plan) {
+    for (int i = 0; i < H5Pget_nfilters(plan); ++i) {
+        unsigned flags = 0, config = 0;
+        std::size_t values = 0;
+        const auto filter =
+            H5Pget_filter2(plan, static_cast<unsigned>(i), &flags, &values, nullptr, 0, nullptr, &config);
+        if (filter != H5Z_FILTER_FLETCHER32 && filter != H5Z_FILTER_SHUFFLE) return true;
+    }
+    return false;
+}
+
+// Deflate makes no more of a byte.
+constexpr std::uint64_t most_compressed = 1032;
+
 }  // namespace
 
-Reader::Reader(const std::filesystem::path& path) : path_(path) {
-    silence();
-    if (!std::filesystem::exists(path)) throw Error("{}: no such file", path.string());
-    file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    if (!file_) throw Error("{}: not an HDF5 file, or damaged", path.string());
-}
+Reader::Reader(const std::filesystem::path& path)
+    : path_(path.string()), file_(open_to_read(path)), bytes_(std::filesystem::file_size(path)) {}
+
+Reader::Reader(std::string_view image, const std::string& name)
+    : path_(name), image_(image), file_(open_in_memory(image, name)), bytes_(image.size()) {}
 
 std::vector<std::string> Reader::names() const {
     std::vector<std::string> names;
     if (H5Literate(file_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add_name, &names) < 0)
-        throw Error("{}: its list of contents cannot be read: damaged", path_.string());
+        fail("its list of contents cannot be read: damaged");
     return names;
 }
 
@@ -46,93 +74,149 @@ bool Reader::has(const std::string& name) const {
     return H5Lexists(file_.get(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
+/// The library follows none (see silence()); here they are named.
+void Reader::refuse_external_links(const std::string& name) const {
+    for (auto slash = name.find('/');; slash = name.find('/', slash + 1)) {
+        const auto part = name.substr(0, slash);
+        H5L_info_t info{};
+        if (H5Lget_info(file_.get(), part.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_EXTERNAL)
+            fail("'{}' is a link into another file, which is not followed; copy the array into this one",
+                 part);
+        if (slash == std::string::npos) return;
+    }
+}
+
 bool Reader::is_array(const std::string& name) const {
+    refuse_external_links(name);
     H5O_info_t info;
     return H5Oget_info_by_name(file_.get(), name.c_str(), &info, H5P_DEFAULT) >= 0 &&
            info.type == H5O_TYPE_DATASET;
 }
 
-Handle Reader::open(const std::string& name) const {
-    if (!has(name)) throw Error("{}: holds no '{}'", path_.string(), name);
-    Handle set(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!set) throw Error("{}: '{}' is no array, or damaged", path_.string(), name);
-    return set;
+Reader::Array Reader::open(const std::string& name) const {
+    refuse_external_links(name);
+    if (!has(name)) fail("holds no '{}'", name);
+    Array array{name, Handle(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT), H5Dclose), {}, {}, 0};
+    if (!array.set) fail("'{}' is no array, or damaged", name);
+    check_layout(array);
+    return array;
+}
+
+/// Finds type and shape. What lies outside the file is refused before the library looks for it, and what the file has no room for
+/// before anyone allocates it.
+void Reader::check_layout(Array& array) const {
+    const Handle plan(H5Dget_create_plist(array.set.get()), H5Pclose);
+    const auto layout = plan ? H5Pget_layout(plan.get()) : H5D_LAYOUT_ERROR;
+    if (layout == H5D_VIRTUAL)
+        fail("'{}' is a virtual array, whose numbers lie elsewhere; copy them into an array of this file",
+             array.name);
+    if (layout < 0) fail("'{}' cannot be read: damaged", array.name);
+    if (H5Pget_external_count(plan.get()) != 0)
+        fail("'{}' keeps its numbers in another file; copy them into an array of this one", array.name);
+    array.type = Handle(H5Dget_type(array.set.get()), H5Tclose);
+    const Handle space(H5Dget_space(array.set.get()), H5Sclose);
+    const int rank = space ? H5Sget_simple_extent_ndims(space.get()) : -1;
+    if (rank < 0 || !array.type) fail("'{}' has no shape: damaged", array.name);
+    array.shape.resize(static_cast<std::size_t>(rank));
+    H5Sget_simple_extent_dims(space.get(), array.shape.data(), nullptr);
+    if (H5Sget_simple_extent_type(space.get()) == H5S_NULL) array.shape = {0};
+
+    const auto numbers = product(array.shape), size = std::uint64_t{H5Tget_size(array.type.get())};
+    const std::uint64_t stored = H5Dget_storage_size(array.set.get());
+    const auto growth = compressed(plan.get()) ? most_compressed : 1;
+    Shape chunk(array.shape.size());
+    if (layout == H5D_CHUNKED && numbers > 0 &&
+        (H5Pget_chunk(plan.get(), rank, chunk.data()) != rank ||
+         product(product(chunk), size) > product(bytes_, growth)))
+        fail("'{}' has chunks larger than the file: damaged", array.name);
+    if (size == 0 || stored > bytes_ || product(numbers, size) > product(stored, growth))
+        fail("'{}' is said to be {} of {} bytes, but {} bytes are stored: damaged, or never filled",
+             array.name, fmt::join(array.shape, " x "), size, stored);
+    array.numbers = numbers;
 }
 
 Shape Reader::shape(const std::string& name) const {
-    const auto set = open(name);
-    const Handle space(H5Dget_space(set.get()), H5Sclose);
-    const int rank = space ? H5Sget_simple_extent_ndims(space.get()) : -1;
-    if (rank < 0) throw Error("{}: '{}' has no shape: damaged", path_.string(), name);
-    Shape shape(rank);
-    H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
-    return shape;
+    return open(name).shape;
 }
 
 std::optional<std::uint64_t> Reader::offset(const std::string& name) const {
-    const auto at = H5Dget_offset(open(name).get());
+    const auto at = H5Dget_offset(open(name).set.get());
     return at == HADDR_UNDEF ? std::nullopt : std::optional<std::uint64_t>(at);
 }
 
 bool Reader::holds_doubles(const std::string& name) const {
-    const auto set = open(name);
-    const Handle stored(H5Dget_type(set.get()), H5Tclose);
-    return H5Tget_class(stored.get()) == H5T_FLOAT && H5Tget_size(stored.get()) == sizeof(double);
+    const auto array = open(name);
+    return H5Tget_class(array.type.get()) == H5T_FLOAT && H5Tget_size(array.type.get()) == sizeof(double);
 }
 
-std::size_t Reader::elements(const Shape& shape) {
-    return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
-}
-
-void Reader::read_into(const std::string& name, hid_t type, void* to) const {
-    const auto set = open(name);
-    const Handle stored(H5Dget_type(set.get()), H5Tclose);
-    const auto kind = H5Tget_class(stored.get());
-    if (kind != H5T_INTEGER && kind != H5T_FLOAT)
-        throw Error("{}: '{}' holds no numbers", path_.string(), name);
-    if (H5Dread(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0)
-        throw Error("{}: '{}' cannot be read: damaged", path_.string(), name);
+void Reader::read_into(const Array& array, hid_t type, void* to) const {
+    const auto kind = H5Tget_class(array.type.get());
+    if (kind != H5T_INTEGER && kind != H5T_FLOAT) fail("'{}' holds no numbers", array.name);
+    if (array.numbers > 0 && H5Dread(array.set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, to) < 0)
+        fail("'{}' cannot be read: damaged", array.name);
 }
 
 std::vector<float> Reader::read_rows(const std::string& name, std::uint64_t first,
                                      std::uint64_t count) const {
-    const auto set = open(name);
-    auto extent = shape(name);
-    if (extent.empty() || first + count > extent[0] || first + count < first)
-        throw Error("{}: '{}' has no rows {} to {}", path_.string(), name, first, first + count);
+    auto found = open_.find(name);
+    if (found == open_.end()) found = open_.emplace(name, open(name)).first;
+    const auto& array = found->second;
+    auto extent = array.shape;
+    if (extent.empty() || first > extent[0] || count > extent[0] - first)
+        fail("'{}' has no rows {} to {}", name, first, first + count);
     Shape start(extent.size(), 0);
     start[0] = first;
     extent[0] = count;
-    std::vector<float> values(elements(extent));
+    std::vector<float> values(product(extent));
     if (values.empty()) return values;
-    const Handle space(H5Dget_space(set.get()), H5Sclose);
+    const Handle space(H5Dget_space(array.set.get()), H5Sclose);
     const Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
     H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
-    if (H5Dread(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
-        throw Error("{}: '{}' cannot be read at row {}: damaged; see actformer inspect --verify",
-                    path_.string(), name, first);
+    if (H5Dread(array.set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
+        fail("'{}' cannot be read at row {}: damaged; see actformer inspect --verify", name, first);
     return values;
 }
 
 std::vector<std::string> Reader::read_strings(const std::string& name) const {
-    const auto set = open(name);
-    const Handle stored(H5Dget_type(set.get()), H5Tclose);
-    if (H5Tget_class(stored.get()) != H5T_STRING) throw Error("{}: '{}' holds no text", path_.string(), name);
-    if (H5Tis_variable_str(stored.get()) > 0) return read_variable_strings(set, stored, name);
-    const auto count = elements(shape(name)), size = H5Tget_size(stored.get());
-    std::vector<char> text(count * size);
-    if (H5Dread(set.get(), stored.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
-        throw Error("{}: '{}' cannot be read: damaged", path_.string(), name);
-    return unpacked(text, count, size);
+    const auto array = open(name);
+    if (H5Tget_class(array.type.get()) != H5T_STRING) fail("'{}' holds no text", name);
+    if (H5Tis_variable_str(array.type.get()) > 0) return read_variable_strings(array);
+    const auto size = H5Tget_size(array.type.get());
+    std::vector<char> text(array.numbers * size);
+    if (!text.empty() &&
+        H5Dread(array.set.get(), array.type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
+        fail("'{}' cannot be read: damaged", name);
+    return unpacked(text, array.numbers, size);
+}
+
+std::vector<std::string> Reader::read_variable_strings(const Array& array) const {
+    if (array.numbers == 0) return {};
+    const auto at = H5Dget_offset(array.set.get());
+    if (at == HADDR_UNDEF || H5Dget_storage_size(array.set.get()) != array.numbers * 16)
+        fail("'{}' holds texts of variable length in pieces; store them at one length, or in one piece",
+             array.name);
+    std::vector<std::string> texts;
+    const auto file = [&](std::uint64_t offset, std::uint64_t size) { return bytes_at(offset, size); };
+    if (!read_variable_texts(bytes_at(at, array.numbers * 16), file, bytes_, texts) ||
+        texts.size() != array.numbers)
+        fail("'{}' cannot be read: damaged", array.name);
+    return texts;
+}
+
+std::string Reader::bytes_at(std::uint64_t offset, std::uint64_t size) const {
+    size = std::min(size, bytes_ - std::min(offset, bytes_));
+    if (!image_.empty()) return image_.substr(std::min<std::uint64_t>(offset, image_.size()), size);
+    std::string bytes(size, '\0');
+    std::ifstream file(path_, std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(offset));
+    file.read(bytes.data(), static_cast<std::streamsize>(size));
+    bytes.resize(static_cast<std::size_t>(file.gcount()));
+    return bytes;
 }
 
 struct Reader::Attribute {
     Handle handle, type;
     std::size_t count = 0;
-
-    void read(hid_t as, void* to, const std::string& where) const {
-        if (count > 0 && H5Aread(handle.get(), as, to) < 0) throw Error("{} cannot be read: damaged", where);
-    }
 };
 
 bool Reader::has_attribute(const std::string& name) const {
@@ -140,51 +224,45 @@ bool Reader::has_attribute(const std::string& name) const {
 }
 
 Reader::Attribute Reader::open_attribute(const std::string& name, H5T_class_t kind, const char* what) const {
-    if (!has_attribute(name)) throw Error("{}: has no attribute '{}'", path_.string(), name);
+    if (!has_attribute(name)) fail("has no attribute '{}'", name);
     Attribute attribute{Handle(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose), {}, 0};
     attribute.type = Handle(H5Aget_type(attribute.handle.get()), H5Tclose);
     const Handle space(H5Aget_space(attribute.handle.get()), H5Sclose);
     if (!attribute.type || H5Tget_class(attribute.type.get()) != kind || !space)
-        throw Error("{}: attribute '{}' holds no {}", path_.string(), name, what);
-    attribute.count =
-        static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0));
+        fail("attribute '{}' holds no {}", name, what);
+    const auto count = std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0);
+    attribute.count = static_cast<std::size_t>(count);
+    if (product(attribute.count, H5Tget_size(attribute.type.get())) > bytes_)
+        fail("attribute '{}' is larger than the file: damaged", name);
     return attribute;
 }
 
-std::vector<std::string> Reader::read_variable_strings(const Handle& set, const Handle& type,
-                                                       const std::string& name) const {
-    std::vector<char*> texts(elements(shape(name)), nullptr);
-    if (H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()) < 0)
-        throw Error("{}: '{}' cannot be read: damaged", path_.string(), name);
-    std::vector<std::string> values;
-    for (const char* text : texts) values.emplace_back(text ? text : "");
-    const Handle space(H5Dget_space(set.get()), H5Sclose);
-    H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, texts.data());
-    return values;
+void Reader::read_attribute(const Attribute& attribute, hid_t as, void* to, const std::string& name) const {
+    if (attribute.count > 0 && H5Aread(attribute.handle.get(), as, to) < 0)
+        fail("attribute '{}' cannot be read: damaged", name);
 }
 
 std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {
     const auto attribute = open_attribute(name, H5T_INTEGER, "whole numbers");
     std::vector<std::int64_t> values(attribute.count);
-    attribute.read(H5T_NATIVE_INT64, values.data(), fmt::format("{}: attribute '{}'", path_.string(), name));
+    read_attribute(attribute, H5T_NATIVE_INT64, values.data(), name);
     return values;
 }
 
 std::vector<float> Reader::attribute_floats(const std::string& name) const {
     const auto attribute = open_attribute(name, H5T_FLOAT, "numbers");
     std::vector<float> values(attribute.count);
-    attribute.read(H5T_NATIVE_FLOAT, values.data(), fmt::format("{}: attribute '{}'", path_.string(), name));
+    read_attribute(attribute, H5T_NATIVE_FLOAT, values.data(), name);
     return values;
 }
 
 std::vector<std::string> Reader::attribute_texts(const std::string& name) const {
     const auto attribute = open_attribute(name, H5T_STRING, "text");
     if (H5Tis_variable_str(attribute.type.get()) != 0)
-        throw Error("{}: attribute '{}' holds no fixed-length strings", path_.string(), name);
+        fail("attribute '{}' holds no fixed-length strings", name);
     const auto size = H5Tget_size(attribute.type.get());
     std::vector<char> text(attribute.count * size);
-    attribute.read(attribute.type.get(), text.data(),
-                   fmt::format("{}: attribute '{}'", path_.string(), name));
+    read_attribute(attribute, attribute.type.get(), text.data(), name);
     return unpacked(text, attribute.count, size);
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <numeric>
 
+#include "base/checksum/checksum.hpp"
 #include "base/checksum/fletcher32.hpp"
 #include "base/error.hpp"
 
@@ -78,6 +79,15 @@ void Writer::write_from(const std::string& name, hid_t type, const Shape& shape,
     if (std::find(shape.begin(), shape.end(), 0U) == shape.end() &&
         H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
         throw Error("HDF5: writing '{}' failed; is there space left?", name);
+    const auto bytes = std::accumulate(shape.begin(), shape.end(), H5Tget_size(type), std::multiplies<>());
+    note_array(name, type, shape, checksum({static_cast<const char*>(values), bytes}));
+}
+
+void Writer::note_array(const std::string& name, hid_t type, const Shape& shape,
+                        const std::string& checksum) {
+    for (auto slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1))
+        contents_.add_group(name.substr(0, slash));
+    contents_.add_array(name, type, shape, checksum);
 }
 
 // Whole chunks go past the library's filters and chunk cache, which copy every byte more often than all else that is done to it.
@@ -89,7 +99,9 @@ void Writer::write_pieces(const std::string& name, const Shape& shape,
     std::vector<float> chunk(numbers + 1);  // the checksum goes behind
     Shape at(shape.size(), 0);
     std::size_t filled = 0;
+    Checksum sum;
     const auto write_chunk = [&] {
+        sum.add({reinterpret_cast<const char*>(chunk.data()), filled * sizeof(float)});
         std::fill(chunk.begin() + static_cast<std::ptrdiff_t>(filled), chunk.end(), 0.0F);
         chunk.back() = std::bit_cast<float>(fletcher32(std::span(chunk).first(numbers)));
         if (H5Dwrite_chunk(set.get(), H5P_DEFAULT, 0, at.data(), chunk.size() * sizeof(float), chunk.data()) <
@@ -107,6 +119,7 @@ void Writer::write_pieces(const std::string& name, const Shape& shape,
             if (filled == numbers) write_chunk();
         }
     if (filled > 0) write_chunk();
+    note_array(name, H5T_NATIVE_FLOAT, shape, sum.hex());
 }
 
 void Writer::write_rows(const std::string& name, const Shape& shape, std::uint64_t first,
@@ -131,39 +144,39 @@ void Writer::write_strings(const std::string& name, const std::vector<std::strin
     write_from(name, string_type(all.size).get(), {values.size()}, all.text.data(), 0);
 }
 
-void Writer::attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value) {
+void Writer::attribute_from(const std::string& name, hid_t type, const Shape& shape, const void* value) {
+    const Handle space(shape.empty()
+                           ? H5Screate(H5S_SCALAR)
+                           : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                       H5Sclose);
     const auto attribute =
         checked(H5Acreate2(file_.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
                 "adding an attribute");
     H5Awrite(attribute.get(), type, value);
+    const auto bytes = std::accumulate(shape.begin(), shape.end(), H5Tget_size(type), std::multiplies<>());
+    contents_.add_attribute("", name, type, shape, {static_cast<const char*>(value), bytes});
 }
 
 void Writer::attribute(const std::string& name, const std::string& value) {
-    attribute_from(name, string_type(value.size()).get(), Handle(H5Screate(H5S_SCALAR), H5Sclose),
-                   value.data());
+    const auto all = packed({value});
+    attribute_from(name, string_type(all.size).get(), {}, all.text.data());
 }
 
 void Writer::attribute(const std::string& name, std::int64_t value) {
-    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate(H5S_SCALAR), H5Sclose), &value);
+    attribute_from(name, H5T_NATIVE_INT64, {}, &value);
 }
 
 void Writer::attribute(const std::string& name, const std::vector<std::int64_t>& values) {
-    const hsize_t count = values.size();
-    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
-                   values.data());
+    attribute_from(name, H5T_NATIVE_INT64, {values.size()}, values.data());
 }
 
 void Writer::attribute(const std::string& name, const std::vector<float>& values) {
-    const hsize_t count = values.size();
-    attribute_from(name, H5T_NATIVE_FLOAT, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
-                   values.data());
+    attribute_from(name, H5T_NATIVE_FLOAT, {values.size()}, values.data());
 }
 
 void Writer::attribute(const std::string& name, const std::vector<std::string>& values) {
     const auto all = packed(values);
-    const hsize_t count = values.size();
-    attribute_from(name, string_type(all.size).get(), Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
-                   all.text.data());
+    attribute_from(name, string_type(all.size).get(), {values.size()}, all.text.data());
 }
 
 void Writer::image(const std::function<void(std::string_view)>& use) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/hdf5/contents.hpp"
 #include "base/hdf5/file_memory.hpp"
 #include "base/hdf5/handle.hpp"
 
@@ -43,6 +44,9 @@ class Writer {
     void write_rows(const std::string& name, const Shape& shape, std::uint64_t first,
                     std::span<const float> values);
 
+    /// The checksum of all that was written so far, as Reader::contents() finds it. Not for what write_rows wrote.
+    std::string contents() const { return contents_.checksum(); }
+
     /// Calls `use` with the bytes of a file in memory, which begin at a page.
     void image(const std::function<void(std::string_view)>& use);
 
@@ -50,12 +54,14 @@ class Writer {
     bool finish();
 
   private:
-    void attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value);
+    void attribute_from(const std::string& name, hid_t type, const Shape& shape, const void* value);
+    void note_array(const std::string& name, hid_t type, const Shape& shape, const std::string& checksum);
     Handle create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk);
     void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
                     hsize_t rows_a_chunk);
     std::unique_ptr<FileMemory> memory_;  ///< of a file that is not on disk
-    Handle file_;                         ///< behind the memory, which it needs to the end
+    Contents contents_;
+    Handle file_;  ///< behind the memory, which it needs to the end
 };
 
 }  // namespace actformer::hdf5

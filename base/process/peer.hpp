@@ -1,4 +1,4 @@
-// Other programs, run beside this one to be compared with it.
+// Other programs that benchmarks compare this one with.
 #pragma once
 
 #include <optional>
@@ -6,7 +6,7 @@
 
 namespace actformer {
 
-/// All that a shell's command line prints, once it has ended; nothing where it fails. Its complaints go where ours go.
+/// All that a shell command prints on standard output; nothing where it fails. Its standard error is ours.
 std::optional<std::string> output_of(const std::string& line);
 
 }  // namespace actformer

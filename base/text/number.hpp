@@ -1,5 +1,4 @@
-// Reading decimal numbers out of text, as fast as raw motion capture deserves: nearly all of its bytes are
-// numbers.
+// Fast reading of decimal numbers in text: nearly all bytes of raw motion capture are numbers.
 #pragma once
 
 #include <bit>
@@ -10,8 +9,7 @@
 
 namespace actformer {
 
-/// Reads the number that starts at `p`: a sign or none, digits with a point or none, an exponent or none, as
-/// in
+/// Reads the number that starts at `p`: a sign or none, digits with a point or none, an exponent or none, as in
 /// "-12.5e-3", "+.5", "7". Returns where it ends, or nullptr where none starts there or it overflows a
 /// double; "nan" and "inf" are no numbers. `value` is the nearest double, and is unchanged on failure. Blanks
 /// before the number are not skipped, and what follows it is for the caller to judge. The text must end in a
@@ -35,8 +33,7 @@ inline const char* read_digits(const char* p, std::uint64_t& mantissa) {
         std::uint64_t bytes;
         std::memcpy(&bytes, p, 8);
         bytes ^= 0x3030303030303030;  // a digit's byte is now its value, any other is above 9
-        // The lowest set bit 7 marks the first byte above 9; what carries into the bytes after it does not
-        // matter.
+        // The lowest set bit 7 marks the first byte above 9. Carries reach only the bytes after it.
         const std::uint64_t others = (bytes | (bytes + 0x7676767676767676)) & 0x8080808080808080;
         const int count = std::countr_zero(others) / 8;
         // Up to the top, so that zeros lead; in two steps, as 64 bits at once may not be shifted.
@@ -51,8 +48,7 @@ inline const char* read_digits(const char* p, std::uint64_t& mantissa) {
     }
 }
 
-/// `first`..`last` are an unsigned number's characters. What is too small for a double is 0; false where too
-/// large.
+/// `first`..`last` are an unsigned number's characters. One too small for a double becomes 0; false for one too large.
 inline bool convert_slowly(const char* first, const char* last, bool below_one, double& magnitude) {
     const auto result = std::from_chars(first, last, magnitude);
     if (result.ec == std::errc::result_out_of_range && below_one) magnitude = 0;

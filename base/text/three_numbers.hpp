@@ -1,4 +1,4 @@
-// Three numbers at the beginning of a line, which is all that most lines of raw motion capture are read for.
+// Fast reading of three numbers at the beginning of a line: a joint's position in raw motion capture.
 #pragma once
 
 #include <array>
@@ -26,8 +26,8 @@ namespace detail {
 inline constexpr double scales[2][16] = {{1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8},
                                          {-1, -1e-1, -1e-2, -1e-3, -1e-4, -1e-5, -1e-6, -1e-7, -1e-8}};
 
-/// One to eight digits behind the point, in `length` characters. Returns nonzero, and any value, for another number:
-/// what speed there is comes of having no branch here. Needs 10 readable bytes.
+/// One to eight digits behind the point, in `length` characters. Returns nonzero, and any value, for another number: it does
+/// not branch, and is fast for that. Needs 10 readable bytes.
 inline std::uint64_t read_plain_number(const char* p, int length, double& value) {
     const auto minus = (static_cast<std::uint32_t>(static_cast<unsigned char>(*p) ^ '-') - 1U) >> 31;
     p += minus;

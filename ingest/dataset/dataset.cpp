@@ -13,30 +13,64 @@ namespace actformer::ingest {
 namespace fs = std::filesystem;
 namespace {
 
-/// Faults of one shard, each on a line.
-std::vector<std::string> faults_of(const fs::path& path, const ShardEntry& entry,
-                                   const DatasetHeader& header) {
-    std::error_code error;
-    const auto bytes = fs::file_size(path, error);
-    if (error) return {fmt::format("{}: missing", path.string())};
+/// Empty where the file is what format 1 wrote, byte for byte.
+std::string changed_bytes(const fs::path& path, const ShardEntry& entry) {
+    const auto hint = "cut short, changed, or opened for writing by another program";
+    const auto bytes = fs::file_size(path);
     if (bytes != entry.bytes)
-        return {fmt::format("{}: {} bytes, not {}: cut short or changed", path.string(), bytes, entry.bytes)};
-    if (checksum_file(path) != entry.checksum)
-        return {
-            fmt::format("{}: its checksum differs from dataset.json's: changed or damaged", path.string())};
+        return fmt::format("{}: {} bytes, not {}: {}", path.string(), bytes, entry.bytes, hint);
+    if (checksum_file(path) == entry.checksum) return {};
+    return fmt::format("{}: its checksum differs from dataset.json's: {}", path.string(), hint);
+}
+
+/// Looks for numbers that are not finite, as the motion passes by.
+class Finite {
+  public:
+    void see(const std::string& array, std::string_view bytes) {
+        if (array != "motion") return;
+        const auto* numbers = reinterpret_cast<const float*>(bytes.data());
+        const auto count = bytes.size() / sizeof(float);
+        bool all = true;
+        for (std::size_t i = 0; i < count; ++i) all &= std::isfinite(numbers[i]);
+        if (!all && !first_odd_)
+            first_odd_ = passed_ + (std::find_if_not(numbers, numbers + count,
+                                                     [](float v) { return std::isfinite(v); }) -
+                                    numbers);
+        passed_ += count;
+    }
+    const std::optional<std::uint64_t>& first_odd() const { return first_odd_; }  ///< a number's place
+
+  private:
+    std::uint64_t passed_ = 0;
+    std::optional<std::uint64_t> first_odd_;
+};
+
+std::string name_at(const std::vector<Clip>& clips, std::uint64_t frame) {
+    for (const auto& clip : clips)
+        if (frame >= clip.offset && frame - clip.offset < clip.frames) return clip.name;
+    return "none";
+}
+
+/// What is wrong with one shard; empty where nothing is.
+std::string fault_of(const fs::path& path, const ShardEntry& entry, const DatasetHeader& header) {
+    if (!fs::exists(path)) return fmt::format("{}: missing", path.string());
     try {
+        if (entry.checksum_of_bytes)
+            if (auto fault = changed_bytes(path, entry); !fault.empty()) return fault;
+        Finite finite;
+        const hdf5::Reader file(path);
+        const auto contents = file.contents(
+            [&](const std::string& array, std::string_view bytes) { finite.see(array, bytes); });
+        if (!entry.checksum_of_bytes && contents != entry.checksum)
+            return fmt::format(
+                "{}: the checksum of its contents differs from dataset.json's: changed or damaged",
+                path.string());
         const auto clips = read_clips(path, header, 0);
-        const auto motion = hdf5::Reader(path).read<float>("motion");
-        for (const auto& clip : clips) {
-            const auto per_frame = header.frame_values();
-            const auto* first = motion.data() + clip.offset * per_frame;
-            if (!std::all_of(first, first + clip.frames * per_frame,
-                             [](float v) { return std::isfinite(v); }))
-                return {
-                    fmt::format("{}: clip {} holds numbers that are not finite", path.string(), clip.name)};
-        }
+        if (finite.first_odd())
+            return fmt::format("{}: clip {} holds numbers that are not finite", path.string(),
+                               name_at(clips, *finite.first_odd() / header.frame_values()));
     } catch (const Error& e) {
-        return {e.what()};
+        return e.what();
     }
     return {};
 }
@@ -109,13 +143,15 @@ BodyModel Dataset::body(std::size_t clip) const {
     return {header_.representation, header_.topology, bone_length(clip), header_.rest};
 }
 
-std::vector<std::string> verify_dataset(const fs::path& folder) {
+Verification verify_dataset(const fs::path& folder) {
     const auto file = read_dataset_json(folder / "dataset.json");
-    std::vector<std::string> faults;
-    for (const auto& shard : file.shards)
-        for (auto& fault : faults_of(folder / shard.file, shard, file.header))
-            faults.push_back(std::move(fault));
-    return faults;
+    Verification found;
+    for (const auto& shard : file.shards) {
+        found.checksums_of_bytes |= shard.checksum_of_bytes;
+        if (auto fault = fault_of(folder / shard.file, shard, file.header); !fault.empty())
+            found.faults.push_back(std::move(fault));
+    }
+    return found;
 }
 
 std::vector<fs::path> datasets_at(const fs::path& path) {

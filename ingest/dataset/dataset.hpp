@@ -48,8 +48,10 @@ struct Clip {
 };
 
 struct ShardEntry {
-    std::string file, checksum;
+    std::string file;
+    std::string checksum;  ///< of its contents (hdf5::Contents)
     std::uint64_t bytes = 0, clips = 0, frames = 0;
+    bool checksum_of_bytes = false;  ///< format 1: of the file as it was written
 };
 
 /// Calls may come from one thread at a time.
@@ -88,9 +90,15 @@ class Dataset {
     mutable std::uint32_t open_shard_ = 0;
 };
 
-/// Recomputes every checksum and checks every offset and number of the dataset in `folder`. One line a fault; empty
-/// where all is well. Throws Error where dataset.json itself cannot be read.
-std::vector<std::string> verify_dataset(const std::filesystem::path& folder);
+struct Verification {
+    std::vector<std::string> faults;  ///< a line each; none where all is well
+    bool checksums_of_bytes =
+        false;  ///< written by format 1: they tell a file that was opened for writing from one that was not
+};
+
+/// Recomputes every checksum and checks every offset and number of the dataset in `folder`. Throws Error where dataset.json
+/// itself cannot be read.
+Verification verify_dataset(const std::filesystem::path& folder);
 
 /// Folders of the datasets at `path`: itself, or those directly inside (as `ingest ntu` lays them out). Throws Error where
 /// there are none.

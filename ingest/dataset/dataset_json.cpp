@@ -63,9 +63,9 @@ std::vector<float> rest_from_json(const Json& json, const DatasetHeader& header,
 }
 
 DatasetFile from_json(const Json& json, const std::string& where) {
-    if (const auto format = json.at("format").get<int>(); format != dataset_format)
+    if (const auto format = json.at("format").get<int>(); format < 1 || format > dataset_format)
         throw Error(
-            "{}: format {}, but this program reads format {}; use the version it was written with ({})",
+            "{}: format {}, but this program reads formats 1 to {}; use the version it was written with ({})",
             where, format, dataset_format, json.value("program", "unknown"));
     DatasetFile file;
     auto& header = file.header;
@@ -93,16 +93,20 @@ DatasetFile from_json(const Json& json, const std::string& where) {
 
 Json to_json(const ShardEntry& shard) {
     return {{"file", shard.file},
-            {"checksum", shard.checksum},
+            {shard.checksum_of_bytes ? "checksum" : "contents", shard.checksum},
             {"bytes", shard.bytes},
             {"clips", shard.clips},
             {"frames", shard.frames}};
 }
 
 ShardEntry shard_from_json(const nlohmann::json& json) {
-    return {json.at("file").get<std::string>(), json.at("checksum").get<std::string>(),
-            json.at("bytes").get<std::uint64_t>(), json.at("clips").get<std::uint64_t>(),
-            json.at("frames").get<std::uint64_t>()};
+    const bool of_bytes = !json.contains("contents");
+    return {json.at("file").get<std::string>(),
+            json.at(of_bytes ? "checksum" : "contents").get<std::string>(),
+            json.at("bytes").get<std::uint64_t>(),
+            json.at("clips").get<std::uint64_t>(),
+            json.at("frames").get<std::uint64_t>(),
+            of_bytes};
 }
 
 std::string to_text(const DatasetFile& file) {

@@ -10,7 +10,8 @@
 
 namespace actformer::ingest {
 
-constexpr int dataset_format = 1;
+/// Format 1 differs in its shards' checksums, which are of the files' bytes: under "checksum" in place of "contents".
+constexpr int dataset_format = 2;
 
 /// Everything dataset.json holds.
 struct DatasetFile {

@@ -36,7 +36,7 @@ std::uint64_t ShardBuilder::bytes() const {
 }
 
 void ShardBuilder::image(const std::string& settings, const std::string& fingerprint,
-                         const std::function<void(std::string_view)>& use) const {
+                         const std::function<void(std::string_view, const std::string&)>& use) const {
     std::vector<std::span<const float>> motion;
     std::vector<float> bones;
     for (const auto& piece : pieces_) {
@@ -62,7 +62,7 @@ void ShardBuilder::image(const std::string& settings, const std::string& fingerp
         file.write_strings("clip/" + header_->fields[f],
                            column<std::string>(clips_, [f](auto& c) { return c.fields[f]; }));
     file.write<float>("clip/bone_length", {n, p, joints}, bones);
-    file.image(use);
+    file.image([&](std::string_view bytes) { use(bytes, file.contents()); });
 }
 
 std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHeader& header,

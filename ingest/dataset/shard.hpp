@@ -32,9 +32,9 @@ class ShardBuilder {
     std::uint64_t bytes() const;  ///< of motion, about
     bool empty() const { return clips_.empty(); }
 
-    /// Calls `use` with the file's bytes, marked with what it was made from.
+    /// Calls `use` with the file's bytes and the checksum of its contents. The file says what it was made from.
     void image(const std::string& settings, const std::string& fingerprint,
-               const std::function<void(std::string_view)>& use) const;
+               const std::function<void(std::string_view bytes, const std::string& contents)>& use) const;
 
   private:
     const DatasetHeader* header_;

@@ -1,5 +1,5 @@
-// What it takes to draw motions and to name their classes: attributes that travel with weights and motions, so that the
-// dataset they came from need not.
+// The skeleton, limb lengths and class names of motions: attributes of weights and motions files, which are then of use
+// without the dataset they came from.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,6 @@
 
 #include <cstring>
 
-#include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/hdf5/reader.hpp"
@@ -42,8 +41,9 @@ std::vector<std::string> drop_empty_classes(DatasetFile& file, const std::set<st
     std::vector<char> scratch;
     for (auto& shard : file.shards) {
         const auto path = folder / shard.file;
-        if (checksum_file(path) == shard.checksum) write_whole(path, renumber(path, renumbered, scratch));
-        shard.checksum = checksum_file(path);
+        const auto checksum = hdf5::Reader(path).contents();
+        if (checksum == shard.checksum) write_whole(path, renumber(path, renumbered, scratch));
+        shard.checksum = checksum == shard.checksum ? hdf5::Reader(path).contents() : checksum;
     }
     file.header.classes = std::move(kept);
     return dropped;

@@ -286,11 +286,12 @@ class Ingest {
         const auto file = folder_of(dataset) / shard_name(shard_count_[dataset]++);
         ShardEntry entry{file.string(), {}, 0, shard.clips(), shard.frames()};
         fs::create_directories((workplace.data() / file).parent_path());
-        shard.image(format_.settings(), fingerprint, [&](std::string_view image) {
-            write_whole(workplace.data() / file, image);
-            entry.checksum = checksum(image);
-            entry.bytes = image.size();
-        });
+        shard.image(format_.settings(), fingerprint,
+                    [&](std::string_view bytes, const std::string& contents) {
+                        write_whole(workplace.data() / file, bytes);
+                        entry.checksum = contents;
+                        entry.bytes = bytes.size();
+                    });
         return entry;
     }
 

@@ -4,26 +4,14 @@
 
 #include <algorithm>
 
+#include "base/random/splitmix.hpp"
 #include "model/cpu/vector_math.hpp"
 
 namespace actformer::model::cpu {
 namespace {
 
-constexpr std::uint32_t factor_a = 0xD2511F53, factor_b = 0xCD9E8D57, step_low = 0x9E3779B9,
-                        step_high = 0xBB67AE85;
-constexpr int rounds = 10;
-
-struct Key {
-    std::uint32_t low, high;
-};
-
 /// Seed and draw make the key, mixed so that near ones have nothing to do with each other.
-Key key_of(const RandomPlace& place) {
-    const auto mixed = [](std::uint64_t x) {
-        x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
-        x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
-        return x ^ (x >> 31);
-    };
+PhiloxKey key_of(const RandomPlace& place) {
     const auto x = mixed(mixed(place.seed) + ((place.index << 8) | place.purpose));
     return {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(x >> 32)};
 }
@@ -33,20 +21,22 @@ constexpr int together = 16;
 constexpr std::int64_t numbers_together = 4 * together;
 
 /// The words of blocks first .. first + 15 of a sample, (4, 16).
-void make_words(Key key, std::uint64_t sample, std::uint32_t first, std::uint32_t (&words)[4][together]) {
+void make_words(PhiloxKey key, std::uint64_t sample, std::uint32_t first,
+                std::uint32_t (&words)[4][together]) {
     for (std::uint32_t i = 0; i < together; ++i) {
         words[0][i] = first + i;
         words[1][i] = static_cast<std::uint32_t>(sample);
         words[2][i] = static_cast<std::uint32_t>(sample >> 32);
         words[3][i] = 0;
     }
-    for (int round = 0; round < rounds; ++round, key.low += step_low, key.high += step_high)
+    for (int round = 0; round < philox_rounds; ++round, key[0] += philox_step[0], key[1] += philox_step[1])
 #pragma omp simd
         for (int i = 0; i < together; ++i) {
-            const auto a = std::uint64_t{factor_a} * words[0][i], b = std::uint64_t{factor_b} * words[2][i];
-            words[0][i] = static_cast<std::uint32_t>(b >> 32) ^ words[1][i] ^ key.low;
+            const auto a = std::uint64_t{philox_factor_a} * words[0][i],
+                       b = std::uint64_t{philox_factor_b} * words[2][i];
+            words[0][i] = static_cast<std::uint32_t>(b >> 32) ^ words[1][i] ^ key[0];
             words[1][i] = static_cast<std::uint32_t>(b);
-            words[2][i] = static_cast<std::uint32_t>(a >> 32) ^ words[3][i] ^ key.high;
+            words[2][i] = static_cast<std::uint32_t>(a >> 32) ^ words[3][i] ^ key[1];
             words[3][i] = static_cast<std::uint32_t>(a);
         }
 }
@@ -60,7 +50,7 @@ Floats portion(const std::uint32_t* words) {
 }
 
 /// 64 numbers of a sample.
-void make_normals(Key key, std::uint64_t sample, std::uint32_t first_block, float* to) {
+void make_normals(PhiloxKey key, std::uint64_t sample, std::uint32_t first_block, float* to) {
     std::uint32_t words[4][together];
     make_words(key, sample, first_block, words);
     for (int half = 0; half < 2; ++half)
@@ -75,21 +65,9 @@ void make_normals(Key key, std::uint64_t sample, std::uint32_t first_block, floa
 
 }  // namespace
 
-Words philox(Words counter, std::array<std::uint32_t, 2> key) {
-    for (int round = 0; round < rounds; ++round) {
-        const auto a = std::uint64_t{factor_a} * counter[0], b = std::uint64_t{factor_b} * counter[2];
-        counter = {static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(b),
-                   static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(a)};
-        key[0] += step_low;
-        key[1] += step_high;
-    }
-    return counter;
-}
-
-Words random_words(const RandomPlace& place, std::uint64_t sample, std::uint32_t block) {
-    const auto key = key_of(place);
+PhiloxWords random_words(const RandomPlace& place, std::uint64_t sample, std::uint32_t block) {
     return philox({block, static_cast<std::uint32_t>(sample), static_cast<std::uint32_t>(sample >> 32), 0},
-                  {key.low, key.high});
+                  key_of(place));
 }
 
 void normal_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t samples, std::int64_t count,

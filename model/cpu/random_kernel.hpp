@@ -1,15 +1,11 @@
 // Random numbers by counter: Philox4x32-10 (Salmon et al. 2011). No state, so no order: any thread may take any place.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
+#include "base/random/philox.hpp"
+
 namespace actformer::model::cpu {
-
-using Words = std::array<std::uint32_t, 4>;
-
-/// The generator itself.
-Words philox(Words counter, std::array<std::uint32_t, 2> key);
 
 /// Where a stream of numbers is in the space of all: numbers of different places have nothing to do with each other.
 struct RandomPlace {
@@ -18,7 +14,7 @@ struct RandomPlace {
 };
 
 /// Four random words.
-Words random_words(const RandomPlace& place, std::uint64_t sample, std::uint32_t block);
+PhiloxWords random_words(const RandomPlace& place, std::uint64_t sample, std::uint32_t block);
 
 /// values (samples, count): standard normal numbers, those of sample first + i in row i. A row's first numbers are the same
 /// for every count. Numbers come by 64: words 0 and 1, then 2 and 3, of 16 blocks give 16 cosines and 16 sines each (Box and

@@ -3,6 +3,7 @@
 #include <ATen/CPUGeneratorImpl.h>
 
 #include "base/error.hpp"
+#include "base/random/splitmix.hpp"
 #include "model/nn/fused_layers.hpp"
 #include "model/nn/tensor_array.hpp"
 
@@ -108,7 +109,7 @@ at::Tensor StgcnNet::fused_layer(const at::Tensor& x, std::size_t i, Mode mode, 
                                  prefix + "residual.1", mode, false);
     auto y = fused_norm_of(fused_graph(x, i), prefix + "tcn.0", mode, true);
     y = fused_convolution(y, prefix + "tcn.2", layer.stride);
-    return fused_norm_of(y, prefix + "tcn.3", mode, true, settings_.dropout, seed + i * 0x9E3779B97F4A7C15U,
+    return fused_norm_of(y, prefix + "tcn.3", mode, true, settings_.dropout, seed + i * golden_step,
                          shortcut);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/random/splitmix.hpp"
 
 namespace actformer::model {
 namespace {
@@ -16,10 +17,7 @@ at::Tensor sent(const at::Tensor& values, const at::Device& device) {
 }  // namespace
 
 std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step) {
-    std::uint64_t x = seed * 0x9E3779B97F4A7C15U + step + 1;
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9U;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
-    return x ^ (x >> 31);
+    return mixed(seed * golden_step + step + 1);
 }
 
 at::Device torch_device(const std::string& name) {

@@ -1,4 +1,4 @@
-// The sampler: published vectors of the generator, and the properties of batches.
+// The sampler: the generator's published vectors; windows, classes and persons of its batches.
 #include "kernels/sampler.hpp"
 
 #include <gtest/gtest.h>

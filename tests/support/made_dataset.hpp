@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "base/checksum/checksum.hpp"
 #include "base/files/file.hpp"
 #include "ingest/dataset/dataset_json.hpp"
 #include "ingest/dataset/shard.hpp"
@@ -41,10 +40,10 @@ inline void write_dataset(const std::filesystem::path& folder, const ingest::Dat
     }
     ingest::ShardEntry entry{ingest::shard_name(0), {}, 0, shard.clips(), shard.frames()};
     std::filesystem::create_directories(folder);
-    shard.image("made by a test", "none", [&](std::string_view image) {
-        write_whole(folder / entry.file, image);
-        entry.checksum = checksum(image);
-        entry.bytes = image.size();
+    shard.image("made by a test", "none", [&](std::string_view bytes, const std::string& contents) {
+        write_whole(folder / entry.file, bytes);
+        entry.checksum = contents;
+        entry.bytes = bytes.size();
     });
     write_whole(folder / "dataset.json", ingest::to_text({header, "made by a test", "none", {entry}}));
 }

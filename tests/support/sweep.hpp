@@ -1,4 +1,4 @@
-// A small sweep with a stand-in that trains and scores at once.
+// A small sweep, and a shell script in place of the program that it runs.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -9,6 +9,7 @@
 #include "ingest/formats/ntu/actions.hpp"
 #include "ingest/formats/ntu/name.hpp"
 #include "ingest/formats/ntu/skeleton_file.hpp"
+#include "ingest/formats/ntu/tracks.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -44,13 +45,26 @@ std::uint32_t label_of(int action) {
     return label;
 }
 
-/// The `persons` bodies seen in most frames, ties going to the first seen.
-bool keep_most_seen(std::vector<Body>& bodies, std::size_t persons) {
-    std::stable_sort(bodies.begin(), bodies.end(),
-                     [](const Body& a, const Body& b) { return a.times.size() > b.times.size(); });
-    if (bodies.size() < persons) return false;
-    bodies.resize(persons);
-    return true;
+constexpr auto zeros_doubt = "bodies or joints at 0 0 0 or NaN were not seen: filled from the frames around";
+constexpr auto tracks_doubt = "a body's tracking number changes: --join-tracks makes one body of such tracks";
+constexpr auto ghost_doubt =
+    "a body that is left out moves more than one kept, perhaps a ghost: --bodies motion takes those that "
+    "move most";
+
+/// Whether the two choices show the same bodies, whatever their order.
+bool same(std::vector<std::size_t> a, std::vector<std::size_t> b) {
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    return a == b;
+}
+
+/// Whether one of the `kept` goes on in another track.
+bool goes_on(const std::vector<std::size_t>& kept, const std::vector<std::vector<std::size_t>>& persons) {
+    return std::any_of(persons.begin(), persons.end(), [&](const auto& tracks) {
+        return tracks.size() > 1 && std::any_of(tracks.begin(), tracks.end(), [&](std::size_t track) {
+                   return std::find(kept.begin(), kept.end(), track) != kept.end();
+               });
+    });
 }
 
 std::vector<std::string> numbers(int first, int last, int step = 1) {
@@ -75,27 +89,45 @@ std::vector<Split> ntu_splits() {
             {"xset/test", {{"setup", even, true}}}};
 }
 
-NtuFormat::NtuFormat(std::unordered_set<std::string> missing, kernels::Smoothing smoothing)
-    : missing_(std::move(missing)),
-      smoothing_(smoothing),
-      datasets_{family("ntu-1p", 1), family("ntu-2p", 2)} {}
+NtuFormat::NtuFormat(NtuOptions options)
+    : options_(std::move(options)), datasets_{family("ntu-1p", 1), family("ntu-2p", 2)} {}
 
 std::string NtuFormat::settings() const {
+    const auto& [missing, bodies, join_tracks, smoothing] = options_;
     auto text =
-        fmt::format("ntu: Gaussian smoothing sigma {} radius {} frames", smoothing_.sigma, smoothing_.radius);
-    if (missing_.empty()) return text;
+        fmt::format("ntu: Gaussian smoothing sigma {} radius {} frames", smoothing.sigma, smoothing.radius);
+    if (bodies == BodyRule::motion) text += ", bodies that move most";
+    if (join_tracks) text += ", tracks joined";
+    if (missing.empty()) return text;
     Checksum names;
-    for (const auto& name : std::set<std::string>(missing_.begin(), missing_.end())) names.add(name + "\n");
-    return text + fmt::format(", {} clips named as missing ({})", missing_.size(), names.hex());
+    for (const auto& name : std::set<std::string>(missing.begin(), missing.end())) names.add(name + "\n");
+    return text + fmt::format(", {} clips named as missing ({})", missing.size(), names.hex());
 }
 
 std::optional<Rejection> NtuFormat::refuse(const RawText& raw) const {
-    if (!missing_.contains(std::string(raw.stem))) return {};
+    if (!options_.missing.contains(std::string(raw.stem))) return {};
     return Rejection{Rejection::Kind::missing, "named in the missing list"};
 }
 
 void NtuFormat::read(const RawText& raw, ClipSink& sink) const {
     sink.take(parse(raw));
+}
+
+bool NtuFormat::choose_bodies(SkeletonFile& file, std::size_t persons,
+                              std::vector<std::string>& doubts) const {
+    const auto tracks = persons_of(file.bodies);
+    if (options_.join_tracks) file.bodies = joined(file.bodies, tracks);
+    if (file.bodies.size() < persons) return false;
+    const auto kept = preferred(file.bodies, persons, options_.bodies);
+    if (file.filled) doubts.emplace_back(zeros_doubt);
+    if (!options_.join_tracks && goes_on(kept, tracks)) doubts.emplace_back(tracks_doubt);
+    if (options_.bodies == BodyRule::frames && file.bodies.size() > persons &&
+        !same(kept, preferred(file.bodies, persons, BodyRule::motion)))
+        doubts.emplace_back(ghost_doubt);
+    std::vector<Body> bodies;
+    for (const auto body : kept) bodies.push_back(std::move(file.bodies[body]));
+    file.bodies = std::move(bodies);
+    return true;
 }
 
 ParsedClip NtuFormat::parse(const RawText& raw) const {
@@ -112,7 +144,7 @@ ParsedClip NtuFormat::parse(const RawText& raw) const {
     const auto persons = datasets_[clip->dataset].persons,
                seen = static_cast<std::uint32_t>(file.bodies.size());
     if (seen == 0) return Rejection{Rejection::Kind::broken, "no body in any frame"};
-    if (!keep_most_seen(file.bodies, persons))
+    if (!choose_bodies(file, persons, clip->doubts))
         return Rejection{Rejection::Kind::dropped, fmt::format("{} of {} persons seen", seen, persons)};
     clip->name = raw.stem;
     clip->label = label_of(name->action);
@@ -148,7 +180,7 @@ kernels::CleanedBatch NtuFormat::clean(kernels::Device& device, std::size_t data
             for (const auto& body : static_cast<const NtuClip&>(*raw).bodies)
                 at = std::copy(body.limbs.begin(), body.limbs.end(), at);
     });
-    return kernels::clean(device, batch, limbs, smoothing_);
+    return kernels::clean(device, batch, limbs, options_.smoothing);
 }
 
 }  // namespace actformer::ingest

@@ -4,13 +4,20 @@
 #include <unordered_set>
 
 #include "ingest/formats/format.hpp"
+#include "ingest/formats/ntu/bodies.hpp"
 
 namespace actformer::ingest {
 
+struct NtuOptions {
+    std::unordered_set<std::string> missing;  ///< names of clips to leave out
+    BodyRule bodies = BodyRule::frames;
+    bool join_tracks = false;  ///< tracks that follow one another in time and place are one body
+    kernels::Smoothing smoothing;
+};
+
 class NtuFormat : public Format {
   public:
-    /// `missing`: names of clips to leave out.
-    explicit NtuFormat(std::unordered_set<std::string> missing = {}, kernels::Smoothing smoothing = {});
+    explicit NtuFormat(NtuOptions options = {});
 
     std::vector<std::string_view> extensions() const override { return {".skeleton"}; }
     const std::vector<DatasetHeader>& datasets() const override { return datasets_; }
@@ -24,8 +31,10 @@ class NtuFormat : public Format {
   private:
     ParsedClip parse(const RawText& raw) const;
 
-    std::unordered_set<std::string> missing_;
-    kernels::Smoothing smoothing_;
+    /// Keeps the clip's persons of what the file shows, and says what is doubtful about them. False where it shows too few.
+    bool choose_bodies(SkeletonFile& file, std::size_t persons, std::vector<std::string>& doubts) const;
+
+    NtuOptions options_;
     std::vector<DatasetHeader> datasets_;
 };
 

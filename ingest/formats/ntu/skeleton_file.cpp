@@ -40,9 +40,57 @@ inline bool read_plain_joint(const char*& line, const char* end, Point& joint) {
     return true;
 }
 
+bool is_none(const Point& joint) {
+    return joint[0] == 0 && joint[1] == 0 && joint[2] == 0;
+}
+
+/// How many of the joints are none.
+std::size_t missing(const Joints& joints) {
+    std::size_t count = 0;
+    for (const auto& joint : joints) count += is_none(joint);
+    return count;
+}
+
+/// Puts joint `j` where it is none: linearly between the frames around, held at the ends. False where no frame shows it.
+bool fill(std::vector<Joints>& poses, const std::vector<std::uint32_t>& times, std::size_t j) {
+    std::size_t before = poses.size();  // the last that shows it; none so far
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (is_none(poses[i][j])) continue;
+        const auto& after = poses[i][j];
+        for (std::size_t gap = before == poses.size() ? 0 : before + 1; gap < i; ++gap)
+            for (std::size_t d = 0; d < 3; ++d) {
+                if (before == poses.size()) {
+                    poses[gap][j][d] = after[d];
+                    continue;
+                }
+                const double from = poses[before][j][d],
+                             part = static_cast<double>(times[gap] - times[before]) /
+                                    static_cast<double>(times[i] - times[before]);
+                poses[gap][j][d] = from + (after[d] - from) * part;
+            }
+        before = i;
+    }
+    for (std::size_t i = before + 1; i < poses.size(); ++i) poses[i][j] = poses[before][j];
+    return before < poses.size();
+}
+
+void append_limbs(std::vector<float>& limbs, const Joints& positions, const Point& origin) {
+    std::array<float, ntu_joints * 3 + 1> row;  // four are stored at once, the next joint over the fourth
+    for (std::size_t j = 0; j < ntu_joints; ++j) {
+        const auto& parent = j == 0 ? origin : positions[ntu25_parents[j]];
+        for (std::size_t d = 0; d < 4; ++d) row[3 * j + d] = static_cast<float>(positions[j][d] - parent[d]);
+    }
+    limbs.insert(limbs.end(), row.begin(), row.end() - 1);
+}
+
 class Reader {
   public:
-    explicit Reader(std::string_view text) : at_(text.data()), end_(text.data() + text.size()) {}
+    /// `keep_positions`: limbs are taken at the end, when joints that are none have been filled.
+    Reader(std::string_view text, bool keep_positions)
+        : at_(text.data()), end_(text.data() + text.size()), keep_positions_(keep_positions) {}
+
+    /// Whether a joint of a body that was seen is none: it takes a reading with `keep_positions`.
+    bool lacks_joints() const { return lacks_joints_; }
 
     SkeletonFile read() {
         SkeletonFile file;
@@ -57,6 +105,7 @@ class Reader {
             for (std::uint64_t b = 0; b < bodies; ++b) read_body(file, frame);
         }
         refuse_leftovers();
+        if (keep_positions_) fill_joints(file);
         return file;
     }
 
@@ -135,39 +184,78 @@ class Reader {
     /// Field by field, to take what is unusual and to name what is wrong.
     void read_odd_joint(Point& joint) {
         begin_line("a joint");
+        bool none = false;
         for (std::size_t d = 0; d < 3; ++d) {
             at_ = skip_blanks(at_, end_);
+            if (const auto word = token(); is_nan(word)) {
+                none = true;
+                at_ += word.size();
+                continue;
+            }
             const char* stop = at_ < end_ ? parse_number(at_, joint[d]) : nullptr;
             if (!stop || static_cast<unsigned char>(*stop) > ' ' || !(std::abs(joint[d]) < farthest))
                 fail("{} where a coordinate in metres should be", in_quotes(token()));
             at_ = stop;
         }
+        if (none) joint = {};
         end_line(3, joint_fields);
+    }
+
+    /// As in "NaN", "-nan" or "-nan(ind)".
+    static bool is_nan(std::string_view word) {
+        if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
+        const auto same = [&](std::size_t i, char lower) { return (word[i] | 0x20) == lower; };
+        return word.size() >= 3 && same(0, 'n') && same(1, 'a') && same(2, 'n') &&
+               (word.size() == 3 || word[3] == '(');
     }
 
     /// Limbs are taken here, in double, so that float32 serves for all that follows.
     void store(SkeletonFile& file, std::string_view id, std::uint32_t frame, const Joints& positions) {
+        if (const auto none = missing(positions); none > 0) {
+            file.filled = true;
+            if (none == ntu_joints) return;
+            lacks_joints_ = true;
+        }
         if (file.bodies.empty()) origin_ = positions[0];
-        auto body =
-            std::find_if(file.bodies.begin(), file.bodies.end(), [&](const Body& b) { return b.id == id; });
-        if (body == file.bodies.end()) {
-            body = file.bodies.insert(body, Body{id, {}, {}});
-            const auto expected = std::min<std::size_t>(file.frames - frame, 4096);
-            body->times.reserve(expected);
-            body->limbs.reserve(expected * ntu_joints * 3);
+        auto& body = body_called(file, id, frame);
+        const bool again = !body.times.empty() && body.times.back() == frame;
+        if (!again) body.times.push_back(frame);
+        if (keep_positions_) {
+            auto& poses = poses_[static_cast<std::size_t>(&body - file.bodies.data())];
+            if (again) poses.pop_back();
+            poses.push_back(positions);
+            return;
         }
-        if (!body->times.empty() && body->times.back() == frame)
-            body->limbs.resize(body->limbs.size() - ntu_joints * 3);
+        if (again) body.limbs.resize(body.limbs.size() - ntu_joints * 3);
+        append_limbs(body.limbs, positions, origin_);
+    }
+
+    Body& body_called(SkeletonFile& file, std::string_view id, std::uint32_t frame) {
+        for (auto& body : file.bodies)
+            if (body.id == id) return body;
+        auto& body = file.bodies.emplace_back(Body{id, {}, {}});
+        const auto expected = std::min<std::size_t>(file.frames - frame, 4096);
+        body.times.reserve(expected);
+        if (keep_positions_)
+            poses_.emplace_back().reserve(expected);
         else
-            body->times.push_back(frame);
-        std::array<float, ntu_joints * 3 + 1>
-            limbs;  // four are stored at once, the next joint over the fourth
-        for (std::size_t j = 0; j < ntu_joints; ++j) {
-            const auto& parent = j == 0 ? origin_ : positions[ntu25_parents[j]];
-            for (std::size_t d = 0; d < 4; ++d)
-                limbs[3 * j + d] = static_cast<float>(positions[j][d] - parent[d]);
+            body.limbs.reserve(expected * ntu_joints * 3);
+        return body;
+    }
+
+    /// Makes limbs of the positions kept.
+    void fill_joints(SkeletonFile& file) {
+        std::vector<Body> whole;
+        for (std::size_t b = 0; b < poses_.size(); ++b) {
+            auto& body = file.bodies[b];
+            bool all = true;
+            for (std::size_t j = 0; j < ntu_joints; ++j) all = fill(poses_[b], body.times, j) && all;
+            if (!all) continue;
+            if (whole.empty()) origin_ = poses_[b][0][0];
+            for (const auto& pose : poses_[b]) append_limbs(body.limbs, pose, origin_);
+            whole.push_back(std::move(body));
         }
-        body->limbs.insert(body->limbs.end(), limbs.begin(), limbs.end() - 1);
+        file.bodies = std::move(whole);
     }
 
     void refuse_leftovers() {
@@ -185,6 +273,8 @@ class Reader {
     std::uint64_t line_ = 0;
     std::uint32_t place_ = 0;
     Point origin_{};
+    bool keep_positions_, lacks_joints_ = false;
+    std::vector<std::vector<Joints>> poses_;  ///< of each body, where they are kept
 };
 
 }  // namespace
@@ -193,7 +283,9 @@ std::variant<SkeletonFile, Rejection> read_skeleton(std::string_view text) {
     text = without_bom(text);
     if (text.empty()) return Rejection{Rejection::Kind::broken, "an empty file"};
     try {
-        return Reader(text).read();
+        Reader reader(text, false);
+        auto file = reader.read();
+        return reader.lacks_joints() ? Reader(text, true).read() : std::move(file);
     } catch (const Error& e) {
         return Rejection{Rejection::Kind::broken, e.what()};
     }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "base/error.hpp"
 #include "base/hdf5/writer.hpp"
 #include "ingest/dataset/dataset.hpp"
@@ -169,4 +171,20 @@ TEST(PublicNames, AreRenumberedByTheLabel) {
     EXPECT_EQ(public_name("A003", 0), "A001");
     for (const char* kept : {"walk_active_001", "A003_7", "A03", "A0003", "B003", "003", ""})
         EXPECT_EQ(public_name(kept, 3), kept);
+}
+
+TEST(MotionsFile, RefusesALengthThatWrapsAround) {
+    const TempDir dir;
+    const auto path = dir / "motions.h5";
+    hdf5::Writer file(path);
+    file.write<float>("A001_0", {3, 2, 4241}, std::vector<float>(3 * 2 * 4241));
+    ASSERT_TRUE(file.finish());
+    auto bytes = read_file(path);
+    const std::uint64_t frames = 4241, wraps = 3074457345618258603;  // times 6 it is 2 modulo 2^64
+    for (std::size_t at = 0; at + 8 <= bytes.size(); ++at)
+        if (std::memcmp(&bytes[at], &frames, 8) == 0) std::memcpy(&bytes[at], &wraps, 8);
+    write_file(path, bytes);
+    const auto why = error_of([&] { MotionsFile(path).read("A001_0"); });
+    EXPECT_NE(why.find("'A001_0'"), std::string::npos) << why;
+    EXPECT_NE(why.find("damaged"), std::string::npos) << why;
 }

@@ -193,7 +193,7 @@ TEST_F(Pipeline, HoldsFewClipsOfALargeFileAtOnce) {
     ASSERT_EQ(dataset.clips().size(), 2503U);
     EXPECT_EQ(dataset.clips()[1999].name, "l1999");
     EXPECT_EQ(dataset.clips()[2000].name, "s0");
-    EXPECT_TRUE(verify_dataset(dir / "out").empty());
+    EXPECT_TRUE(verify_dataset(dir / "out").faults.empty());
 }
 
 TEST_F(Pipeline, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
@@ -251,7 +251,7 @@ TEST_F(Pipeline, DropsClassesThatNoClipHas) {
     EXPECT_EQ(dataset.clips()[0].label, 0U);
     EXPECT_EQ(dataset.clips()[1].label, 1U);
     EXPECT_EQ(dataset.clips()[2].label, 1U);
-    EXPECT_TRUE(verify_dataset(dir / "out").empty());
+    EXPECT_TRUE(verify_dataset(dir / "out").faults.empty());
     ASSERT_EQ(summary.datasets.size(), 1U);
     EXPECT_EQ(summary.datasets[0].classes, 2U);
     ASSERT_EQ(summary.remarks.size(), 2U);

@@ -1,8 +1,7 @@
-// Synthetic NTU clips: the same for everyone, well-formed, human, and each action like no other.
+// Synthetic NTU clips: reproducible, well-formed, anatomically possible, with actions that differ.
 #include "ingest/synth/ntu/ntu.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,26 +16,14 @@
 #include "ingest/synth/ntu/kinect.hpp"
 #include "ingest/synth/ntu/skeleton_writer.hpp"
 #include "ingest/synth/random.hpp"
+#include "tests/support/temp_dir.hpp"
 
 namespace actformer::ingest::synth {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Folder {
-  public:
-    Folder() {
-        std::string name = (fs::temp_directory_path() / "synth_ntu_XXXXXX").string();
-        path_ = mkdtemp(name.data());
-    }
-    ~Folder() { fs::remove_all(path_); }
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
-
-/// A reader of its own, as strict as the format.
+/// A second reader of the format, which accepts nothing but what the format says.
 struct ParsedJoint {
     std::array<double, 11> number;
     int tracking;
@@ -102,7 +89,7 @@ std::string slurp(const fs::path& file) {
 }
 
 TEST(SynthNtu, SameBytesForAnyNumberOfThreads) {
-    Folder one, many;
+    test::TempDir one, many;
     NtuOptions options{one.path(), 48, 5, {1, 27, 50, 114}, 1};
     EXPECT_EQ(synthesise_ntu(options).written, 48u);
     options.folder = many.path();
@@ -119,7 +106,7 @@ TEST(SynthNtu, SameBytesForAnyNumberOfThreads) {
 }
 
 TEST(SynthNtu, AnInterruptedRunIsCompletedAndAnotherSeedRefused) {
-    Folder folder;
+    test::TempDir folder;
     NtuOptions options{folder.path(), 6, 5, {8, 9}, 1};
     synthesise_ntu(options);
     const auto name = clip_at(2, {8, 9}).name() + ".skeleton";
@@ -133,7 +120,7 @@ TEST(SynthNtu, AnInterruptedRunIsCompletedAndAnotherSeedRefused) {
 }
 
 TEST(SynthNtu, RefusesWhatCannotBe) {
-    Folder folder;
+    test::TempDir folder;
     EXPECT_THROW(synthesise_ntu({folder.path(), 20353, 1, {4}, 1}), Error);
     EXPECT_THROW(synthesise_ntu({folder.path(), 1, 1, {121}, 1}), Error);
     std::ofstream(folder.path() / "file") << "x";

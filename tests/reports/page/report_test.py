@@ -12,7 +12,7 @@ import re
 import sys
 import time
 
-from webdriver import Browser, available
+from browser import Browser, available
 
 NUMBER = re.compile(r"^[-−]?\d+(\.\d+)?$")
 STATES = ("not run", "failed", "not finished", "not measured")
@@ -339,7 +339,7 @@ def main():
     parser.add_argument("--screenshots", type=pathlib.Path, metavar="DIR")
     options = parser.parse_args()
     if not available():
-        print("skipped: chromedriver and chromium are not both installed")
+        print("skipped: python3-selenium, chromedriver and chromium are not all installed")
         return 77
     with Browser() as browser:
         browser.page = options.report.resolve(strict=True).as_uri()

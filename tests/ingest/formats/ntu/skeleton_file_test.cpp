@@ -70,7 +70,7 @@ TEST(SkeletonFile, ReadsNumbersHoweverTheyAreWritten) {
           "0.12345678901234567890", "00.5", "1e2", "123456.789", "-0.05349901", "3.785547"})
         EXPECT_EQ(good(line_of_joint_1(x)).bodies[0].limbs[3], static_cast<float>(std::stod(x) - root)) << x;
     for (const std::string x :
-         {"nan", "-nan", "inf", "1e7", "1e999", "0.5x", "0,5", "--1", "-", ".", "1.2.3", "0x10", "1e"})
+         {"inf", "-inf", "nanx", "na", "1e7", "1e999", "0.5x", "0,5", "--1", "-", ".", "1.2.3", "0x10", "1e"})
         EXPECT_TRUE(reason(line_of_joint_1(x)).starts_with("line 6: "))
             << x << ": " << reason(line_of_joint_1(x));
 }
@@ -104,6 +104,81 @@ TEST(SkeletonFile, LetsTheLaterOfTwoEntriesOfABodyWin) {
     ASSERT_EQ(twice.bodies.size(), 1U);
     ASSERT_EQ(twice.bodies[0].times.size(), 1U);
     EXPECT_EQ(twice.bodies[0].limbs[3], good(skeleton_text(1, {always_seen("same", b)})).bodies[0].limbs[3]);
+}
+
+namespace {
+
+const Pose nowhere{};
+
+/// Position `d` of joint `j` in frame `i` of a body's detections, relative to the clip's first root.
+double position(const Body& body, std::size_t i, std::size_t j, std::size_t d) {
+    double sum = 0;
+    for (auto at = static_cast<int>(j); at >= 0; at = ntu25().parents[static_cast<std::size_t>(at)])
+        sum += body.limbs[(i * 25 + static_cast<std::size_t>(at)) * 3 + d];
+    return sum;
+}
+
+}  // namespace
+
+TEST(SkeletonFile, ABodyOfZerosOrNansWasNotSeen) {
+    const auto motion = random_motion(8, 1);
+    auto seen = always_seen("1", motion), unseen = seen;
+    seen.frames[2] = seen.frames[3] = seen.frames[7] = nowhere;
+    unseen.frames[2] = unseen.frames[3] = unseen.frames[7] = std::nullopt;
+    const auto file = good(skeleton_text(8, {seen}));
+    EXPECT_TRUE(file.filled);
+    ASSERT_EQ(file.bodies.size(), 1U);
+    EXPECT_EQ(file.bodies[0].times, (std::vector<std::uint32_t>{0, 1, 4, 5, 6}));
+    const auto gone = good(skeleton_text(8, {unseen}));
+    EXPECT_FALSE(gone.filled);
+    EXPECT_EQ(file.bodies[0].limbs, gone.bodies[0].limbs);
+    for (auto& joint : *seen.frames[3]) joint = {NAN, NAN, NAN};
+    EXPECT_EQ(good(skeleton_text(8, {seen})).bodies[0].limbs, gone.bodies[0].limbs);
+}
+
+TEST(SkeletonFile, ABodyOfZerosThroughoutIsNoBody) {
+    const SeenBody nobody{"ghost", std::vector<std::optional<Pose>>(6, nowhere)};
+    const auto one = good(skeleton_text(6, {nobody, always_seen("1", random_motion(6, 1))}));
+    ASSERT_EQ(one.bodies.size(), 1U);
+    EXPECT_EQ(one.bodies[0].limbs, good(plain_clip(6)).bodies[0].limbs);
+    EXPECT_TRUE(good(skeleton_text(6, {nobody})).bodies.empty());
+}
+
+TEST(SkeletonFile, JointsOfZerosOrNansAreFilledFromTheFramesAround) {
+    auto motion = random_motion(9, 4);
+    auto broken = motion;
+    const std::size_t elbow = 5, wrist = 6, root = 0;
+    broken[3][elbow] = broken[4][elbow] = {0, 0, 0};
+    broken[0][wrist] = broken[1][wrist] = {NAN, 0.5, 3};
+    broken[8][root] = {0, 0, 0};
+    const auto file = good(skeleton_text(9, {always_seen("1", broken)}));
+    EXPECT_TRUE(file.filled);
+    ASSERT_EQ(file.bodies[0].times.size(), 9U);
+    for (std::size_t d = 0; d < 3; ++d) {
+        const auto origin = motion[0][root][d];
+        const auto expect_at = [&](std::size_t frame, std::size_t joint, double where) {
+            // seven digits of text, then floats over a chain of limbs
+            EXPECT_NEAR(position(file.bodies[0], frame, joint, d), where - origin, 3e-6)
+                << "frame " << frame << " joint " << joint;
+        };
+        for (const double part : {1.0, 2.0})
+            expect_at(2 + static_cast<std::size_t>(part), elbow,
+                      motion[2][elbow][d] + part / 3 * (motion[5][elbow][d] - motion[2][elbow][d]));
+        expect_at(0, wrist, motion[2][wrist][d]);
+        expect_at(1, wrist, motion[2][wrist][d]);
+        expect_at(8, root, motion[7][root][d]);
+        expect_at(3, 7, motion[3][7][d]);  // the hand hangs on the wrist and stays where it was seen
+        expect_at(5, elbow, motion[5][elbow][d]);
+    }
+}
+
+TEST(SkeletonFile, ABodyWithAJointThatIsNeverSeenIsNone) {
+    auto headless = random_motion(5, 1);
+    for (auto& pose : headless) pose[3] = {0, 0, 0};
+    const auto file =
+        good(skeleton_text(5, {always_seen("headless", headless), always_seen("1", random_motion(5, 2))}));
+    ASSERT_EQ(file.bodies.size(), 1U);
+    EXPECT_EQ(file.bodies[0].limbs, good(plain_clip(5, 2)).bodies[0].limbs);
 }
 
 TEST(SkeletonFile, AcceptsFramesAndClipsWithoutABody) {

@@ -19,13 +19,7 @@ PriorSettings settings(std::uint32_t channels, std::uint32_t streams = 1) {
 
 }  // namespace
 
-TEST(RandomKernel, IsPhilox) {
-    // The known answers that come with Random123.
-    EXPECT_EQ(cpu::philox({0, 0, 0, 0}, {0, 0}),
-              (cpu::Words{0x6627E8D5, 0xE169C58D, 0xBC57AC4C, 0x9B00DBD8}));
-    constexpr std::uint32_t full = 0xFFFFFFFF;
-    EXPECT_EQ(cpu::philox({full, full, full, full}, {full, full}),
-              (cpu::Words{0x408F276D, 0x41C83B0E, 0xA20BC7C6, 0x6D5451FD}));
+TEST(RandomKernel, WordsAreFair) {
     std::array<std::int64_t, 64> by_place{};
     std::int64_t ones = 0;
     constexpr int draws = 20000;

@@ -1,0 +1,71 @@
+#include "base/hdf5/opening.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+
+#include "base/error.hpp"
+
+namespace actformer::hdf5 {
+namespace {
+
+/// Whether another program holds the file as the HDF5 library does while it writes: by an exclusive flock.
+bool written_elsewhere(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) return false;
+    const bool locked = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(file);
+    return locked;
+}
+
+/// Superblocks of version 3 (h5py's libver='latest') note that the file is open for writing. A program that is killed leaves the
+/// note behind.
+bool left_open(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::array<char, 12> start{};
+    file.read(start.data(), start.size());
+    return file && std::string_view(start.data(), 8) == "\x89HDF\r\n\x1a\n" && start[8] == 3 &&
+           start[11] != 0;
+}
+
+}  // namespace
+
+Handle open_to_read(const std::filesystem::path& path) {
+    silence();
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw Error("{}: no such file", path.string());
+    if (!std::filesystem::is_regular_file(status))
+        throw Error("{}: not a file; an HDF5 file is expected", path.string());
+    if (::access(path.c_str(), R_OK) != 0)
+        throw Error("{}: cannot be read: {}", path.string(), std::generic_category().message(errno));
+    Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    if (file) return file;
+    if (written_elsewhere(path))
+        throw Error(
+            "{}: open for writing elsewhere; close it there, or set HDF5_USE_FILE_LOCKING=FALSE to read it "
+            "all "
+            "the same",
+            path.string());
+    if (left_open(path))
+        throw Error(
+            "{}: open for writing elsewhere, or left so by a program that was killed: h5clear -s mends it",
+            path.string());
+    throw Error("{}: not an HDF5 file, or damaged", path.string());
+}
+
+Handle open_in_memory(std::string_view image, const std::string& name) {
+    silence();
+    const auto access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "opening a file in memory");
+    H5Pset_fapl_core(access.get(), std::size_t{1} << 16, false);
+    if (image.empty() || H5Pset_file_image(access.get(), const_cast<char*>(image.data()), image.size()) < 0)
+        throw Error("{}: not an HDF5 file, or damaged", name);
+    Handle file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access.get()), H5Fclose);
+    if (!file) throw Error("{}: not an HDF5 file, or damaged", name);
+    return file;
+}
+
+}  // namespace actformer::hdf5

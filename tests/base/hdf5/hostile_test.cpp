@@ -1,0 +1,213 @@
+// Files that ask for more memory than they can fill, or that point outside themselves.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <functional>
+
+#include "base/error.hpp"
+#include "base/hdf5/reader.hpp"
+#include "base/hdf5/writer.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer;
+using namespace actformer::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string refusal(const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "not refused";
+}
+
+/// Replaces every 8-byte number `from` in the file, such as an extent.
+void replace_number(const fs::path& path, std::uint64_t from, std::uint64_t to) {
+    auto bytes = read_file(path);
+    int found = 0;
+    for (std::size_t at = 0; at + 8 <= bytes.size(); ++at)
+        if (std::memcmp(&bytes[at], &from, 8) == 0) {
+            std::memcpy(&bytes[at], &to, 8);
+            ++found;
+        }
+    ASSERT_GT(found, 0);
+    write_file(path, bytes);
+}
+
+struct HostileFile : testing::Test {
+    TempDir dir;
+    fs::path path = dir / "file.h5";
+
+    /// An array "motion" of (4241, 3) numbers, in chunks or in one piece.
+    void write(hsize_t rows_a_chunk) const {
+        hdf5::Writer writer(path);
+        writer.write<float>("motion", {4241, 3}, std::vector<float>(4241 * 3, 1.5F), rows_a_chunk);
+        ASSERT_TRUE(writer.finish());
+    }
+    std::string refusal_to_read() const {
+        return refusal([&] { hdf5::Reader(path).read<float>("motion"); });
+    }
+
+    /// An array "motion" of two numbers, made with `plan`.
+    void create(hid_t plan, const hdf5::Shape& shape = {2}, const hsize_t* most = nullptr) const {
+        const hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+        const hdf5::Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), most),
+                                 H5Sclose);
+        const hdf5::Handle set(
+            H5Dcreate2(file.get(), "motion", H5T_NATIVE_FLOAT, space.get(), H5P_DEFAULT, plan, H5P_DEFAULT),
+            H5Dclose);
+        ASSERT_GE(set.get(), 0);
+    }
+};
+
+}  // namespace
+
+TEST_F(HostileFile, AShapeWhoseProductWrapsIsRefused) {
+    for (const hsize_t rows_a_chunk : {0, 64})
+        for (const std::uint64_t rows : {std::uint64_t{1} << 62, std::uint64_t{6148914691236517206},
+                                         std::uint64_t{1} << 40, ~std::uint64_t{0} - 1}) {
+            write(rows_a_chunk);
+            ASSERT_EQ(hdf5::Reader(path).read<float>("motion").size(), 4241U * 3);
+            replace_number(path, 4241, rows);
+            const auto why = refusal_to_read();
+            EXPECT_NE(why.find("file.h5"), std::string::npos) << rows << ": " << why;
+            EXPECT_NE(why.find("damaged"), std::string::npos) << rows << ": " << why;
+            EXPECT_NE(refusal([&] { hdf5::Reader(path).read_rows("motion", 0, rows); }), "not refused");
+            EXPECT_NE(refusal([&] { hdf5::Reader(path).shape("motion"); }), "not refused")
+                << "callers multiply what they get";
+        }
+}
+
+TEST_F(HostileFile, RowsPastTheEndAreRefused) {
+    write(64);
+    const hdf5::Reader file(path);
+    EXPECT_EQ(file.read_rows("motion", 4240, 1), (std::vector<float>{1.5F, 1.5F, 1.5F}));
+    EXPECT_EQ(file.read_rows("motion", 4241, 0), std::vector<float>{});
+    for (const auto& [first, count] :
+         {std::pair<std::uint64_t, std::uint64_t>{4240, 2}, {4242, 0}, {1, ~std::uint64_t{0}}})
+        EXPECT_NE(refusal([&] { file.read_rows("motion", first, count); }).find("has no rows"),
+                  std::string::npos);
+}
+
+TEST_F(HostileFile, AChunkLargerThanTheFileIsRefused) {
+    const hdf5::Handle plan(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const hsize_t chunk = 1 << 28, most = H5S_UNLIMITED;
+    H5Pset_chunk(plan.get(), 1, &chunk);
+    create(plan.get(), {2}, &most);
+    EXPECT_NE(refusal_to_read().find("chunks larger than the file"), std::string::npos) << refusal_to_read();
+}
+
+TEST_F(HostileFile, WhatWasNeverFilledIsRefused) {
+    create(H5P_DEFAULT, {1'000'000});
+    EXPECT_NE(refusal_to_read().find("never filled"), std::string::npos) << refusal_to_read();
+    create(H5P_DEFAULT, {0, 25});
+    EXPECT_TRUE(hdf5::Reader(path).read<float>("motion").empty());
+}
+
+TEST_F(HostileFile, ExternalStorageIsRefused) {
+    write_file(dir / "secret", "12345678");
+    const hdf5::Handle plan(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_external(plan.get(), (dir / "secret").c_str(), 0, 8);
+    create(plan.get());
+    EXPECT_NE(refusal_to_read().find("keeps its numbers in another file"), std::string::npos)
+        << refusal_to_read();
+}
+
+TEST_F(HostileFile, AVirtualArrayIsRefusedThoughItNamesItself) {
+    const hdf5::Handle plan(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const hsize_t two = 2;
+    const hdf5::Handle space(H5Screate_simple(1, &two, nullptr), H5Sclose);
+    ASSERT_GE(H5Pset_virtual(plan.get(), space.get(), ".", "motion", space.get()), 0);
+    create(plan.get());
+    EXPECT_NE(refusal_to_read().find("virtual array"), std::string::npos) << refusal_to_read();
+    EXPECT_NE(refusal([&] { hdf5::Reader(path).shape("motion"); }).find("virtual array"), std::string::npos);
+}
+
+TEST_F(HostileFile, ExternalLinksAreRefusedByName) {
+    write(0);
+    const auto other = dir / "other.h5";
+    // In another process: this one makes none either.
+    const auto made = run_command("/usr/bin/python3 -c \"import h5py; f = h5py.File('" + other.string() +
+                                  "', 'w'); f['motion'] = h5py.ExternalLink('" + path.string() +
+                                  "', 'motion'); f['all'] = h5py.ExternalLink('" + path.string() +
+                                  "', '/'); f['round about'] = h5py.SoftLink('/all/motion')\"");
+    if (made.exit != 0) GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
+    const hdf5::Reader file(other);
+    EXPECT_EQ(file.names(), (std::vector<std::string>{"all", "motion", "round about"}));
+    for (const auto* name : {"motion", "all/motion"}) {
+        EXPECT_NE(refusal([&] { file.read<float>(name); }).find("link into another file"), std::string::npos);
+        EXPECT_NE(refusal([&] { file.is_array(name); }).find("link into another file"), std::string::npos);
+    }
+    EXPECT_NE(refusal([&] { file.read<float>("round about"); }), "not refused");
+    EXPECT_FALSE(file.is_array("round about"));
+}
+
+TEST_F(HostileFile, TextsOfVariableLengthAreReadOnlyWhereTheyAre) {
+    const std::vector<std::string> texts{std::string(7777, 'x'), "", "short", std::string(3333, 'y')};
+    {
+        const hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+        const hdf5::Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+        H5Tset_size(type.get(), H5T_VARIABLE);
+        const hsize_t count = texts.size();
+        const hdf5::Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+        const hdf5::Handle set(
+            H5Dcreate2(file.get(), "name", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+            H5Dclose);
+        std::vector<const char*> values;
+        for (const auto& text : texts) values.push_back(text.c_str());
+        H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    }
+    EXPECT_EQ(hdf5::Reader(path).read_strings("name"), texts);
+    const auto whole = read_file(path);
+    EXPECT_EQ(hdf5::Reader(whole, "in memory").read_strings("name"), texts);
+    for (const std::uint32_t length : {7777, 3333})  // of the text, in its reference and in the heap
+        for (const std::uint32_t other : {0x70000000U, length + 1, length + 8}) {
+            auto bytes = whole;
+            for (std::size_t at = 0; at + 4 <= bytes.size(); ++at)
+                if (std::memcmp(&bytes[at], &length, 4) == 0) std::memcpy(&bytes[at], &other, 4);
+            write_file(path, bytes);
+            try {
+                const auto read =
+                    hdf5::Reader(path).read_strings("name");  // more of the heap, but of the heap
+                EXPECT_EQ(read.size(), texts.size());
+                EXPECT_LT(other, 10000U);
+            } catch (const Error& e) {
+                EXPECT_NE(std::string(e.what()).find("damaged"), std::string::npos) << e.what();
+            }
+        }
+}
+
+TEST_F(HostileFile, WhatIsNoFileIsRefusedAtOnce) {
+    EXPECT_NE(refusal([&] { hdf5::Reader(dir / "none"); }).find("no such file"), std::string::npos);
+    EXPECT_NE(refusal([&] { hdf5::Reader(dir.path()); }).find("not a file"), std::string::npos);
+    ASSERT_EQ(::mkfifo((dir / "fifo").c_str(), 0600), 0);
+    EXPECT_NE(refusal([&] { hdf5::Reader(dir / "fifo"); }).find("not a file"), std::string::npos);
+    write_file(path, "no HDF5");
+    EXPECT_NE(refusal([&] { hdf5::Reader{path}; }).find("not an HDF5 file, or damaged"), std::string::npos);
+}
+
+TEST_F(HostileFile, OneThatAnotherProgramWritesIsTold) {
+    write(0);
+    const int elsewhere = ::open(path.c_str(), O_RDWR);
+    ASSERT_EQ(::flock(elsewhere, LOCK_EX), 0);  // as the library does while it writes
+    const auto why = refusal([&] { hdf5::Reader{path}; });
+    ::close(elsewhere);
+    EXPECT_NE(why.find("open for writing elsewhere"), std::string::npos) << why;
+    EXPECT_NE(why.find("HDF5_USE_FILE_LOCKING=FALSE"), std::string::npos) << why;
+    EXPECT_EQ(refusal([&] { hdf5::Reader{path}; }), "not refused");
+}
+
+TEST_F(HostileFile, OneLeftOpenByAKilledProgramIsTold) {
+    std::string start("\x89HDF\r\n\x1a\n\x03\x08\x08\x05",
+                      12);  // version 3, sizes of 8 bytes, open for writing
+    write_file(path, start + std::string(2000, '\0'));
+    EXPECT_NE(refusal([&] { hdf5::Reader{path}; }).find("h5clear -s"), std::string::npos);
+}
