@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
-#include "reports/sweep/reading.hpp"
+#include "base/text/loose_json.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -27,13 +27,13 @@ JobStatus status_of(const fs::path& folder) {
     JobStatus out;
     if (fs::exists(folder / "done.json")) {
         out.state = JobState::done;
-        const auto json = read_json(folder / "done.json");
-        if (const auto& seconds = member(json, "seconds"); seconds.is_number()) out.seconds = seconds;
+        const auto json = loose::read(folder / "done.json");
+        if (const auto& seconds = loose::member(json, "seconds"); seconds.is_number()) out.seconds = seconds;
     } else if (is_locked(folder / "lock")) {
         out.state = JobState::running;
     } else if (fs::exists(folder / "failed.json")) {
         out.state = JobState::failed;
-        const auto why = text(read_json(folder / "failed.json"), "why");
+        const auto why = loose::text(loose::read(folder / "failed.json"), "why");
         out.why = why.empty() ? "?" : why;
     }
     return out;

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/process/process.hpp"
-#include "reports/sweep/reading.hpp"
+#include "base/text/loose_json.hpp"
 #include "reports/sweep/run.hpp"
 
 namespace actformer::reports {
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 Json submitted_before(const fs::path& out) {
-    auto json = read_json(out / "slurm.json");
+    auto json = loose::read(out / "slurm.json");
     return json.is_object() ? json : Json::object();
 }
 

@@ -1,37 +1,16 @@
 #include "reports/sweep/sweep_file.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <set>
 
-#include "base/error.hpp"
 #include "reports/tables/paper_tables.hpp"
+#include "reports/tables/yaml_place.hpp"
 
 namespace actformer::reports {
 namespace {
 
 using Node = YAML::Node;
-
-/// Where a node stands, for messages.
-struct Place {
-    std::string file;
-
-    [[noreturn]] void fail(const Node& node, const std::string& what) const {
-        throw Error("{}: line {}: {}", file, node.Mark().line + 1, what);
-    }
-    void expect_map(const Node& node, const std::string& what) const {
-        if (!node.IsMap()) fail(node, what + " must be a map of keys and values");
-    }
-    template <typename T>
-    T as(const Node& node, const std::string& key, const char* kind) const {
-        try {
-            return node.as<T>();
-        } catch (const YAML::Exception&) {
-            fail(node, fmt::format("'{}' must be {}", key, kind));
-        }
-    }
-};
+using Place = YamlPlace;
 
 /// An entry's keys with those of what it is like, each with the node that says it.
 using Entry = std::map<std::string, Node>;

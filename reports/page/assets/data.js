@@ -75,12 +75,14 @@ const data = (() => {
     return all.sort((a, b) => b.count / b.of - a.count / a.of || b.count - a.count).slice(0, most);
   }
 
-  /** Class indices in the order asked for; classes without the figure come last. */
-  function classOrder(perClass, order) {
+  /** Class indices, the worst by `column` first; classes without the figure come last. As they are without a column. */
+  function classOrder(perClass, column) {
     const indices = perClass.map((_, i) => i);
-    const worse = { accuracy: (c) => c.accuracy, fid: (c) => (c.fid == null ? null : -c.fid) }[order];
-    if (!worse) return indices;
-    const key = (i) => worse(perClass[i]) ?? Infinity;
+    if (!column) return indices;
+    const key = (i) => {
+      const value = perClass[i][column.key];
+      return value == null ? Infinity : column.better === "higher" ? value : -value;
+    };
     return indices.sort((a, b) => (key(a) === key(b) ? a - b : key(a) - key(b)));
   }
 
