@@ -74,7 +74,7 @@ void add_render(CLI::App& app) {
     command->add_option("--split", options->wanted.split, "Draw from this split of the dataset")
         ->capture_default_str();
     command->add_option("--class", options->wanted.label,
-                        "Draw from this class: its name, or its number from 0");
+                        "Draw from this class: its name, or its number from 1");
     command->add_option("--count", options->wanted.count, "Motions of each INPUT, spread over its classes")
         ->check(CLI::Range(1, 400))
         ->capture_default_str();
@@ -91,7 +91,7 @@ void add_render(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--size", options->size,
-                     "Height of a figure in pixels (default 320; 480 for one that moves)")
+                     "Height of a motion's picture in pixels (default 320; 480 for one that moves)")
         ->check(CLI::Range(40, 4000));
     command->add_option("--columns", options->columns, "Snapshots in a row of the contact sheet")
         ->check(CLI::Range(1, 100))
@@ -103,7 +103,7 @@ void add_render(CLI::App& app) {
     examples(command,
              "  actformer render data/ntu-1p -o sheet.png\n"
              "  actformer render raw/S001C001P001R001A001.skeleton -o raw.png\n"
-             "  actformer render data/ntu-2p --class handshaking --count 4 -o handshakes.gif\n"
+             "  actformer render data/ntu-2p --class \"shaking hands\" --count 4 -o handshakes.gif\n"
              "  actformer render data/ntu-1p --clip S001C001P001R001A001 --view orbit -o drink.mp4\n"
              "  actformer render generated.h5 --per-class 4 -o generated.mp4\n");
     command->callback([options] { render(*options); });

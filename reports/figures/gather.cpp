@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "ingest/dataset/classes.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/motions_file.hpp"
 #include "ingest/formats/ntu/skeleton_file.hpp"
@@ -61,26 +62,11 @@ std::vector<std::size_t> chosen(const std::vector<Candidate>& candidates, const 
     return spread(some, some.size());
 }
 
-/// The class that --class asks for: its name, or its number counted from 0.
-std::uint32_t class_called(const std::string& text, const std::vector<std::string>& classes,
-                           const std::string& where) {
-    if (const auto found = std::ranges::find(classes, text); found != classes.end())
-        return static_cast<std::uint32_t>(found - classes.begin());
-    const bool number =
-        !text.empty() && text.size() < 7 && text.find_first_not_of("0123456789") == std::string::npos;
-    if (number && (classes.empty() || std::stoul(text) < classes.size()))
-        return static_cast<std::uint32_t>(std::stoul(text));
-    throw Error("{} has no class '{}'; give a name or a number from 0{}", where, text,
-                classes.empty() ? ""
-                                : fmt::format(" to {} ('{}' .. '{}')", classes.size() - 1, classes.front(),
-                                              classes.back()));
-}
-
 /// Those of `candidates` that --class lets pass; all without it.
 std::vector<Candidate> of_class(std::vector<Candidate> candidates, const Wanted& wanted,
                                 const std::vector<std::string>& classes, const std::string& where) {
     if (wanted.label.empty()) return candidates;
-    const auto label = class_called(wanted.label, classes, where);
+    const auto label = ingest::label_called(wanted.label, classes, where);
     std::erase_if(candidates, [&](const Candidate& c) { return c.label != label; });
     if (candidates.empty()) throw Error("{} has no motion of class '{}' to draw", where, wanted.label);
     return candidates;
@@ -123,16 +109,33 @@ std::vector<Figure> figures_by_name(const std::vector<ingest::Dataset>& datasets
     return figures;
 }
 
+/// Throws Error with the class of any of the datasets that was probably meant.
+void refuse_class(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
+                  const std::string& said) {
+    std::vector<std::string> classes;
+    for (const auto& dataset : datasets)
+        classes.insert(classes.end(), dataset.header().classes.begin(), dataset.header().classes.end());
+    ingest::label_called(said, classes, path.string());
+}
+
 std::vector<Figure> figures_of_datasets(const fs::path& path, const Wanted& wanted) {
     const auto folders = ingest::datasets_at(path);
     std::vector<ingest::Dataset> datasets(folders.begin(), folders.end());
     if (!wanted.clips.empty()) return figures_by_name(datasets, path, wanted.clips);
 
-    // A class by name may be in one of the datasets of a folder only, as handshaking is in ntu-2p.
+    // A class by name may be in one of the datasets of a folder only, as shaking hands is in ntu-2p.
     const auto named = [&](const ingest::Dataset& d) {
-        return std::ranges::count(d.header().classes, wanted.label) > 0;
+        try {
+            ingest::label_called(wanted.label, d.header().classes, "");
+            return true;
+        } catch (const Error&) {
+            return false;
+        }
     };
-    if (std::ranges::any_of(datasets, named)) std::erase_if(datasets, std::not_fn(named));
+    if (std::ranges::any_of(datasets, named))
+        std::erase_if(datasets, std::not_fn(named));
+    else if (!wanted.label.empty())
+        refuse_class(datasets, path, wanted.label);
 
     std::vector<Figure> figures;
     for (std::size_t d = 0; d < datasets.size(); ++d) {

@@ -12,7 +12,7 @@ namespace actformer::reports {
 struct Wanted {
     std::vector<std::string> clips;  ///< by name; empty: picked over the classes
     std::string split = "all";       ///< of datasets
-    std::string label;               ///< a class's name or its number from 0; empty: any
+    std::string label;               ///< a class, as ingest::label_called takes it; empty: any
     std::size_t count = 6;           ///< motions to pick
     std::size_t per_class = 0;       ///< of every class, in its place; 0 picks `count` in all
     std::filesystem::path
