@@ -139,13 +139,13 @@ std::optional<double> estimate(const Plan& plan, const std::vector<JobStatus>& s
     for (std::size_t i = 0; i < plan.jobs.size(); ++i)
         if (plan.jobs[i].kind == asked.kind && status[i].seconds) {
             seconds += *status[i].seconds;
-            work += plan.jobs[i].work;
+            work += plan.jobs[i].amount;
             ++jobs;
         }
-    if (jobs > 0 && work > 0 && asked.work > 0) return seconds / work * asked.work;
+    if (jobs > 0 && work > 0 && asked.amount > 0) return seconds / work * asked.amount;
     if (jobs > 0) return seconds / static_cast<double>(jobs);
-    if (asked.work > 0 && asked.pace > 0)
-        return 2 + asked.work / asked.pace;  // a program starts and ends, too
+    if (asked.amount > 0 && asked.pace > 0)
+        return 2 + asked.amount / asked.pace;  // a program starts and ends, too
     return {};
 }
 
