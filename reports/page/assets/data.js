@@ -1,4 +1,4 @@
-// Decoding: from the report's JSON to typed arrays and plain figures. Nothing here touches the page.
+// Decoding: from the report's JSON to typed arrays and plain numbers. Nothing here touches the page.
 const data = (() => {
   /** Little-endian 16-bit numbers from base64, on any machine; `Type` is Int16Array or Uint16Array. */
   function decode16(base64, Type) {
@@ -88,7 +88,7 @@ const data = (() => {
 
   const present = (value) => typeof value === "number" && Number.isFinite(value);
 
-  /** `value` with three figures or so: 12.5, 3.57, 0.0412, 1240. */
+  /** `value` with three digits or so: 12.5, 3.57, 0.0412, 1240. */
   function figure(value) {
     const size = Math.abs(value);
     const digits = size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.1 || size === 0 ? 2 : 4;

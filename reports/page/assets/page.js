@@ -40,7 +40,7 @@ const actionName = (action) => (action < 0 ? "all actions" : row().classes?.[act
 
 function showMotions() {
   const found = data.motionsOf(report, row(), chosen.action, MOST);
-  const figures = (motions) => motions.map((m) => body.makeFigure(m, found.topology));
+  const scenes = (motions) => motions.map((m) => body.makeScene(m, found.topology));
   const some = Boolean(found && found.real.length + found.generated.length);
   byId("stage").hidden = !some;
   byId("motions-missing").hidden = some;
@@ -50,8 +50,8 @@ function showMotions() {
     return;
   }
   theViewer.show([
-    { name: "Real", figures: figures(found.real), empty: "no real motion of this action in the report" },
-    { name: "Generated", figures: figures(found.generated), empty: "no generated motion of this action in the report" },
+    { name: "Real", scenes: scenes(found.real), empty: "no real motion of this action in the report" },
+    { name: "Generated", scenes: scenes(found.generated), empty: "no generated motion of this action in the report" },
   ], `${found.real.length} real and ${found.generated.length} generated motions of ${actionName(chosen.action)}`);
 }
 
