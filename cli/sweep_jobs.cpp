@@ -26,7 +26,7 @@ struct Commands {
         std::vector<Words> out;
         Words ingest{program, "ingest", work.format};
         if (work.clips > 0) {
-            out.push_back({program, "synth", "ntu", "-o", work.synthetic, "--clips",
+            out.push_back({program, "synth", work.format, "-o", work.synthetic, "--clips",
                            std::to_string(work.clips), "--seed", std::to_string(work.seed)});
             add_option(out[0], "--actions", work.actions);
             ingest.push_back(work.synthetic);
