@@ -108,7 +108,7 @@ Json scores_of(const Json& scored) {
 struct ClassMetric {
     const char *key, *heading, *metric, *floor;
 };
-constexpr ClassMetric class_metrics[] = {{"accuracy", "Accuracy", "accuracy", nullptr},
+constexpr ClassMetric class_metrics[] = {{"accuracy", "accuracy", "accuracy", nullptr},
                                          {"fid", "FID", "fid_mean", "floor"},
                                          {"fida", "FIDa", "fida_mean", nullptr}};
 

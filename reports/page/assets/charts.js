@@ -172,7 +172,7 @@ const charts = (() => {
       label.style.left = `${(100 * v) / end}%`;
       axis.append(label);
     });
-    return html("th", { scope: "col" }, heading + (unit && `, ${unit}`), axis);
+    return html("th", { scope: "col" }, data.capital(heading) + (unit && `, ${unit}`), axis);
   }
 
   function barCell(column, entry) {

@@ -95,5 +95,7 @@ const data = (() => {
     return value.toFixed(digits).replace("-", "−");
   }
 
-  return { motionsOf, pointsOf, commonConfusions, classOrder, present, figure, sum };
+  const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
+
+  return { motionsOf, pointsOf, commonConfusions, classOrder, present, figure, capital, sum };
 })();

@@ -16,7 +16,7 @@ const withUnit = (value, unit) => data.figure(value) + (unit && ` ${unit}`);
 /** A score with what real motions come to: their own value, or the floor of real against real. */
 function scoreItem({ heading, unit, value, real, floor }) {
   const [name, against] = data.present(real) ? ["real", real] : ["floor", floor];
-  return html("div", {}, html("dt", {}, heading), html("dd", {}, withUnit(value, unit),
+  return html("div", {}, html("dt", {}, data.capital(heading)), html("dd", {}, withUnit(value, unit),
     html("small", {}, data.present(against) ? `${name} ${withUnit(against, unit)}` : "")));
 }
 
