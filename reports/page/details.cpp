@@ -10,7 +10,7 @@
 #include "base/text/loose_json.hpp"
 #include "eval/scoring/features_file.hpp"
 #include "ingest/dataset/dataset.hpp"
-#include "reports/figures/gather.hpp"
+#include "reports/motions/gather.hpp"
 #include "reports/page/curves.hpp"
 #include "reports/page/moving.hpp"
 #include "reports/page/packed.hpp"
@@ -275,14 +275,15 @@ class Details {
     }
 
     /// The motions of a set with their classes' places; those of unknown and left-out classes are not in it.
-    Json motion_set(const std::vector<Figure>& figures, const Classes& classes, std::uint32_t frames) const {
+    Json motion_set(const std::vector<JointMotion>& motions, const Classes& classes,
+                    std::uint32_t frames) const {
         Json set = Json::array();
-        for (const auto& figure : figures) {
-            const auto place = figure.label ? classes.place(*figure.label) : std::nullopt;
+        for (const auto& motion : motions) {
+            const auto place = motion.label ? classes.place(*motion.label) : std::nullopt;
             if (!place || *place % thinning_.class_step != 0) continue;
-            auto motion = packed_motion(figure, frames, thinning_.frame_step);
-            motion["label"] = *place;
-            set.push_back(std::move(motion));
+            auto packed = packed_motion(motion, frames, thinning_.frame_step);
+            packed["label"] = *place;
+            set.push_back(std::move(packed));
         }
         return set;
     }
@@ -292,7 +293,7 @@ class Details {
         wanted.per_class = thinning_.samples;
         const auto generated = gather(run.motions, wanted);
         std::uint32_t frames = 0;
-        for (const auto& figure : generated) frames = std::max(frames, figure.frames);
+        for (const auto& motion : generated) frames = std::max(frames, motion.frames);
         wanted.split = row.split;
         const auto key = fmt::format("{}|{}|{}|{}", run.dataset.string(), row.split, frames,
                                      fmt::join(classes.labels, ","));

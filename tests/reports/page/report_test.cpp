@@ -11,7 +11,7 @@
 #include "reports/page/packed.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/projection.hpp"
-#include "tests/reports/pictures/made_figures.hpp"
+#include "tests/reports/motions/made_motions.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -272,8 +272,8 @@ TEST(Packed, IsBase64OfLittleEndianNumbers) {
 }
 
 TEST(PackedMotion, ComesBackWithinHalfAStep) {
-    const auto figure = walkers(2, 7);
-    const auto motion = packed_motion(figure, 60, 2);
+    const auto walk = walkers(2, 7);
+    const auto motion = packed_motion(walk, 60, 2);
     EXPECT_EQ(motion["frames"], 4);
     EXPECT_DOUBLE_EQ(motion["fps"].get<double>(), 15);
     const double scale = motion["scale"];
@@ -293,15 +293,15 @@ TEST(PackedMotion, ComesBackWithinHalfAStep) {
         const auto whole = static_cast<std::int16_t>(bytes[2 * i] | bytes[2 * i + 1] << 8);
         const auto frame = i / 150, rest = i % 150;
         EXPECT_NEAR(motion["origin"][i % 3].get<double>() + scale * whole,
-                    figure.joints[2 * frame * 150 + rest], 0.51 * scale);
+                    walk.joints[2 * frame * 150 + rest], 0.51 * scale);
     }
 }
 
 TEST(PackedMotion, ABodyThatIsGoneStaysWhereItWas) {
-    auto figure = walkers(1, 3);
-    figure.seen = {1, 0, 1};
-    for (std::size_t i = 75; i < 150; ++i) figure.joints[i] = 1e30F;
-    const auto motion = packed_motion(figure, 3);
+    auto walk = walkers(1, 3);
+    walk.seen = {1, 0, 1};
+    for (std::size_t i = 75; i < 150; ++i) walk.joints[i] = 1e30F;
+    const auto motion = packed_motion(walk, 3);
     EXPECT_LT(motion["scale"].get<double>(), 1e-3) << "what is not there does not count";
 }
 

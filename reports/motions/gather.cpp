@@ -1,4 +1,4 @@
-#include "reports/figures/gather.hpp"
+#include "reports/motions/gather.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -86,27 +86,27 @@ std::vector<std::size_t> picks_of(const ingest::Dataset& dataset, const Wanted& 
     return chosen(of_class(std::move(candidates), wanted, dataset.header().classes, where), wanted, count);
 }
 
-Figure figure_of_clip(const ingest::Dataset& dataset, std::size_t clip) {
+JointMotion motion_of_clip(const ingest::Dataset& dataset, std::size_t clip) {
     const auto& header = dataset.header();
     const auto& entry = dataset.clips()[clip];
-    auto figure = figure_of(dataset.motion(clip), dataset.body(clip), header.fps,
-                            title_of(entry.name, entry.label, header.classes));
-    figure.label = entry.label;
-    return figure;
+    auto motion = joint_motion(dataset.motion(clip), dataset.body(clip), header.fps,
+                               title_of(entry.name, entry.label, header.classes));
+    motion.label = entry.label;
+    return motion;
 }
 
-std::vector<Figure> figures_by_name(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
-                                    const std::vector<std::string>& names) {
-    std::vector<Figure> figures;
+std::vector<JointMotion> motions_by_name(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
+                                         const std::vector<std::string>& names) {
+    std::vector<JointMotion> motions;
     for (const auto& name : names) {
-        const auto before = figures.size();
+        const auto before = motions.size();
         for (const auto& dataset : datasets)
-            if (const auto clip = dataset.find(name)) figures.push_back(figure_of_clip(dataset, *clip));
-        if (figures.size() == before)
+            if (const auto clip = dataset.find(name)) motions.push_back(motion_of_clip(dataset, *clip));
+        if (motions.size() == before)
             throw Error("{} has no clip '{}'; its clips are called as in '{}'", path.string(), name,
                         datasets[0].clips().empty() ? "" : datasets[0].clips()[0].name);
     }
-    return figures;
+    return motions;
 }
 
 /// Throws Error with the class of any of the datasets that was probably meant.
@@ -118,10 +118,10 @@ void refuse_class(const std::vector<ingest::Dataset>& datasets, const fs::path& 
     ingest::label_called(said, classes, path.string());
 }
 
-std::vector<Figure> figures_of_datasets(const fs::path& path, const Wanted& wanted) {
+std::vector<JointMotion> motions_of_datasets(const fs::path& path, const Wanted& wanted) {
     const auto folders = ingest::datasets_at(path);
     std::vector<ingest::Dataset> datasets(folders.begin(), folders.end());
-    if (!wanted.clips.empty()) return figures_by_name(datasets, path, wanted.clips);
+    if (!wanted.clips.empty()) return motions_by_name(datasets, path, wanted.clips);
 
     // A class by name may be in one of the datasets of a folder only, as shaking hands is in ntu-2p.
     const auto named = [&](const ingest::Dataset& d) {
@@ -137,14 +137,14 @@ std::vector<Figure> figures_of_datasets(const fs::path& path, const Wanted& want
     else if (!wanted.label.empty())
         refuse_class(datasets, path, wanted.label);
 
-    std::vector<Figure> figures;
+    std::vector<JointMotion> motions;
     for (std::size_t d = 0; d < datasets.size(); ++d) {
         const auto count = wanted.count * (d + 1) / datasets.size() - wanted.count * d / datasets.size();
         if (count == 0) continue;
         for (const auto clip : picks_of(datasets[d], wanted, count))
-            figures.push_back(figure_of_clip(datasets[d], clip));
+            motions.push_back(motion_of_clip(datasets[d], clip));
     }
-    return figures;
+    return motions;
 }
 
 /// A motions file and what it is drawn with; the dataset that told it, if one did.
@@ -220,7 +220,7 @@ std::optional<std::uint32_t> label_of(const std::string& name, const Drawn& draw
     return static_cast<std::uint32_t>(std::stoul(digits) - 1);
 }
 
-std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wanted) {
+std::vector<JointMotion> motions_of_motions(const fs::path& path, const Wanted& wanted) {
     if (wanted.split != "all")
         throw Error("{} is a motions file and has no splits; leave --split out", path.string());
     const auto drawn = drawn_from(path, wanted);
@@ -241,34 +241,34 @@ std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wante
         picks = chosen(of_class(std::move(candidates), wanted, subjects.classes, path.string()), wanted,
                        wanted.count);
     }
-    std::vector<Figure> figures;
+    std::vector<JointMotion> motions;
     for (const auto i : picks) {
         const auto motion = drawn.file.read(names[i]);
         const auto label = label_of(names[i], drawn);
-        figures.push_back(
-            figure_of(motion, subjects, subjects.fps, title_of(names[i], label, subjects.classes)));
-        figures.back().label = label;
+        motions.push_back(
+            joint_motion(motion, subjects, subjects.fps, title_of(names[i], label, subjects.classes)));
+        motions.back().label = label;
     }
-    return figures;
+    return motions;
 }
 
 /// A raw capture is drawn as it was recorded: bodies appear and vanish, and nothing is smoothed.
-Figure figure_of_raw(const fs::path& path) {
+JointMotion motion_of_raw(const fs::path& path) {
     std::vector<char> text;
     const auto read = ingest::read_skeleton(read_text(path, text, std::uint64_t{1} << 27));
     if (const auto* why = std::get_if<ingest::Rejection>(&read))
         throw Error("{}: {}", path.string(), why->reason);
-    return figure_of(std::get<ingest::SkeletonFile>(read), path.stem().string() + ", raw");
+    return joint_motion(std::get<ingest::SkeletonFile>(read), path.stem().string() + ", raw");
 }
 
 }  // namespace
 
-std::vector<Figure> gather(const fs::path& path, const Wanted& wanted) {
+std::vector<JointMotion> gather(const fs::path& path, const Wanted& wanted) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) throw Error("{}: no such file or folder", path.string());
-    if (fs::is_directory(path, ignored)) return figures_of_datasets(path, wanted);
-    if (path.extension() == ".skeleton") return {figure_of_raw(path)};
-    return figures_of_motions(path, wanted);
+    if (fs::is_directory(path, ignored)) return motions_of_datasets(path, wanted);
+    if (path.extension() == ".skeleton") return {motion_of_raw(path)};
+    return motions_of_motions(path, wanted);
 }
 
 }  // namespace actformer::reports

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/figures/figure.hpp"
+#include "reports/motions/joint_motion.hpp"
 
 namespace actformer::reports {
 
@@ -20,6 +20,6 @@ struct Wanted {
 };
 
 /// The motions wanted of what lies at `path`. Throws Error naming `path` and what it lacks.
-std::vector<Figure> gather(const std::filesystem::path& path, const Wanted& wanted);
+std::vector<JointMotion> gather(const std::filesystem::path& path, const Wanted& wanted);
 
 }  // namespace actformer::reports
