@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "ingest/formats/formats.hpp"
 #include "reports/tables/paper_tables.hpp"
 #include "reports/tables/yaml_place.hpp"
 
@@ -118,6 +119,15 @@ class Taker {
     Entry entry_;
 };
 
+void check_format(const Place& place, const Node& where, const std::string& dataset,
+                  const std::string& format) {
+    std::vector<std::string_view> known;
+    for (const auto& one : ingest::formats()) known.push_back(one.name);
+    if (std::ranges::find(known, format) == known.end())
+        place.fail(where, fmt::format("dataset '{}': there is no format '{}'; there are {}", dataset, format,
+                                      fmt::join(known, ", ")));
+}
+
 SweepDataset dataset(const Place& place, const Node& where, const std::string& name, Entry entry) {
     Taker take(place, std::move(entry));
     SweepDataset out;
@@ -132,8 +142,7 @@ SweepDataset dataset(const Place& place, const Node& where, const std::string& n
     take.end("a dataset", "path, format, raw, arguments, clips, seed, actions, use, like");
     if (!out.path.empty() + !out.raw.empty() + (out.clips > 0) != 1)
         place.fail(where, fmt::format("dataset '{}' must say one of path, raw and clips", name));
-    if (out.format != "ntu" && out.format != "bvh")
-        place.fail(where, fmt::format("dataset '{}': format is ntu or bvh, not '{}'", name, out.format));
+    check_format(place, where, name, out.format);
     return out;
 }
 

@@ -14,7 +14,7 @@ namespace actformer::reports {
 /// Ready (`path`), ingested from raw files (`raw`), or ingested from synthetic ones (`clips`).
 struct SweepDataset {
     std::string path;
-    std::string format = "ntu";  ///< of raw: ntu or bvh
+    std::string format = "ntu";  ///< of raw or synthetic clips, as `actformer ingest` lists them
     std::vector<std::string> raw;
     std::vector<std::string> arguments;  ///< more words for `actformer ingest`
     std::uint64_t clips = 0, seed = 1;   ///< synthetic
