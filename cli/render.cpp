@@ -7,14 +7,14 @@
 #include "base/files/aside.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
-#include "reports/figures/gather.hpp"
+#include "reports/motions/gather.hpp"
 #include "reports/pictures/render.hpp"
 
 namespace actformer::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using reports::Figure;
+using reports::JointMotion;
 
 struct Options {
     std::vector<fs::path> inputs;
@@ -35,24 +35,24 @@ void render(const Options& options) {
 
     layout.across = static_cast<int>(options.wanted.per_class);  // a class a row
 
-    std::vector<Figure> figures;
+    std::vector<JointMotion> motions;
     for (const auto& path : options.inputs)
-        for (auto& figure : reports::gather(path, options.wanted)) figures.push_back(std::move(figure));
+        for (auto& motion : reports::gather(path, options.wanted)) motions.push_back(std::move(motion));
     layout.size = options.size > 0                                           ? options.size
-                  : kind != reports::PictureKind::png && figures.size() == 1 ? 480
+                  : kind != reports::PictureKind::png && motions.size() == 1 ? 480
                                                                              : 320;
 
     Progress progress("render", "frames");
     std::size_t frames = 0;
-    reports::render(figures, layout, options.output, [&](std::size_t done, std::size_t all) {
+    reports::render(motions, layout, options.output, [&](std::size_t done, std::size_t all) {
         frames = all;
         progress.update(static_cast<double>(done) / static_cast<double>(all), done);
     });
     progress.clear();
     std::error_code ignored;
     const auto kilobytes = static_cast<double>(fs::file_size(options.output, ignored)) / 1000;
-    fmt::print("{}: {} motion{}{}, {:.0f} kB\n", options.output.string(), figures.size(),
-               figures.size() == 1 ? "" : "s", frames > 0 ? fmt::format(", {} frames", frames) : "",
+    fmt::print("{}: {} motion{}{}, {:.0f} kB\n", options.output.string(), motions.size(),
+               motions.size() == 1 ? "" : "s", frames > 0 ? fmt::format(", {} frames", frames) : "",
                kilobytes);
 }
 
@@ -74,7 +74,7 @@ void add_render(CLI::App& app) {
     command->add_option("--split", options->wanted.split, "Draw from this split of the dataset")
         ->capture_default_str();
     command->add_option("--class", options->wanted.label,
-                        "Draw from this class: its name, or its number from 0");
+                        "Draw from this class: its name, or its number from 1");
     command->add_option("--count", options->wanted.count, "Motions of each INPUT, spread over its classes")
         ->check(CLI::Range(1, 400))
         ->capture_default_str();
@@ -91,7 +91,7 @@ void add_render(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--size", options->size,
-                     "Height of a figure in pixels (default 320; 480 for one that moves)")
+                     "Height of a motion's picture in pixels (default 320; 480 for one that moves)")
         ->check(CLI::Range(40, 4000));
     command->add_option("--columns", options->columns, "Snapshots in a row of the contact sheet")
         ->check(CLI::Range(1, 100))
@@ -103,7 +103,7 @@ void add_render(CLI::App& app) {
     examples(command,
              "  actformer render data/ntu-1p -o sheet.png\n"
              "  actformer render raw/S001C001P001R001A001.skeleton -o raw.png\n"
-             "  actformer render data/ntu-2p --class handshaking --count 4 -o handshakes.gif\n"
+             "  actformer render data/ntu-2p --class \"shaking hands\" --count 4 -o handshakes.gif\n"
              "  actformer render data/ntu-1p --clip S001C001P001R001A001 --view orbit -o drink.mp4\n"
              "  actformer render generated.h5 --per-class 4 -o generated.mp4\n");
     command->callback([options] { render(*options); });

@@ -1,4 +1,4 @@
-// actformer report: Tables 1 to 5 and all that stands behind them, as one HTML file.
+// actformer report: the papers' tables and all that stands behind them, as one HTML file.
 #include <fmt/format.h>
 
 #include <memory>
@@ -56,7 +56,7 @@ void run(const Options& options) {
 void add_report(CLI::App& app) {
     auto options = std::make_shared<Options>();
     auto* command =
-        app.add_subcommand("report", "Write Tables 1-5, curves, scores and motions as one HTML file");
+        app.add_subcommand("report", "Write the papers' tables, curves, scores and motions as one HTML file");
     command->add_option("folders", options->folders, "Folders that `actformer sweep` wrote")->required();
     command->add_option("-o,--out", options->out, "The HTML file");
     command->add_option("--csv", options->csv, "The tables as comma-separated values, one line a figure");

@@ -11,6 +11,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "cli/sweep_jobs.hpp"
 #include "reports/sweep/run.hpp"
 
 namespace actformer::cli {
@@ -31,14 +32,8 @@ std::string plain(const std::string& text) {
     return printable(text);
 }
 
-void print_commands(const reports::Job& job, const Options& options) {
-    for (const auto& words : job.commands)
-        fmt::print("      {}\n",
-                   plain(command_line(reports::filled_in(words, options.program, options.out, job))));
-}
-
 /// Every job, what it may cost, and with a dry run its commands.
-void print_plan(const reports::Plan& plan, const Options& options) {
+void print_plan(const reports::Plan& plan, const Options& options, const SweepJobs& jobs) {
     const auto in_slurm = options.status ? reports::jobs_in_slurm(options.out) : std::nullopt;
     const auto status = reports::statuses(plan, options.out);
     double sum = 0;
@@ -66,7 +61,7 @@ void print_plan(const reports::Plan& plan, const Options& options) {
         fmt::print("{:<8} {:<24} {}  {}{}\n", state, job.id, plain(job.title), cost,
                    s.state == JobState::failed ? ": " + plain(s.why) : "");
         if (options.dry_run && s.state != JobState::done && s.state != JobState::failed)
-            print_commands(job, options);
+            for (const auto& line : jobs.command_lines(job)) fmt::print("      {}\n", plain(line));
     }
     fmt::print("{} of {} to do", open, counted(plan.jobs.size(), "job"));
     if (sum > 0) fmt::print(", about {} of work one after another", duration(sum));
@@ -92,18 +87,21 @@ std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, c
     return failed;
 }
 
-/// This command again, for Slurm's jobs, which may land on other machines with the same file system.
-std::vector<std::string> again(const Options& options) {
+/// This command again for one job, for Slurm, which may run it on another machine with the same file system.
+std::vector<std::string> again(const Options& options, const reports::Job& job) {
     return {(program_folder() / "actformer").string(),
             "sweep",
             fs::absolute(options.file).string(),
             "-o",
             fs::absolute(options.out).string(),
             "--program",
-            options.program};
+            options.program,
+            "--only",
+            job.id};
 }
 
-void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Options& options) {
+void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Options& options,
+              const SweepJobs& jobs) {
     std::size_t done = 0;
     reports::SweepEvents events;
     events.begins = [&](const reports::Job& job) {
@@ -118,7 +116,7 @@ void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Opti
             fmt::print(stderr, "failed: {}: {}; see {}\n", plain(job.title), plain(status.why),
                        (reports::folder_of(options.out, job) / "log.txt").string());
     };
-    const auto status = reports::run_plan(sweep, plan, {options.out, options.program, options.jobs}, events);
+    const auto status = reports::run_plan(sweep, plan, {options.out, jobs, options.jobs}, events);
     if (options.json)
         fmt::print("{}\n", reports::results(sweep, plan, options.out).dump(2));
     else
@@ -135,15 +133,17 @@ void run(Options options) {
     if (options.program.empty()) options.program = (program_folder() / "actformer").string();
     options.out = fs::absolute(options.out).lexically_normal();
     const auto sweep = reports::read_sweep(options.file);
-    const auto plan = reports::make_plan(sweep, options.file.parent_path());
+    const SweepJobs jobs(options.program, options.out);
+    const auto plan = reports::make_plan(sweep, options.file.parent_path(), jobs);
     if (!options.only.empty()) {
-        const auto status = reports::run_one(sweep, plan, options.only, {options.out, options.program, 1});
+        const auto status = reports::run_one(sweep, plan, options.only, {options.out, jobs});
         if (status.state != JobState::done) throw Error("{}: {}", options.only, status.why);
         return;
     }
     if (options.slurm && !options.dry_run) {
-        const auto count = reports::submit_plan(sweep, plan, {options.out, options.program, 1},
-                                                again(options), options.sbatch);
+        const auto count = reports::submit_plan(
+            sweep, plan, {options.out, jobs}, [&](const reports::Job& job) { return again(options, job); },
+            options.sbatch);
         fmt::print("{} submitted; follow them with actformer sweep {} -o {} --status\n",
                    counted(count, "job"), options.file.string(), options.out.string());
         return;
@@ -153,11 +153,11 @@ void run(Options options) {
         if (options.json)
             fmt::print("{}\n", reports::results(sweep, plan, options.out).dump(2));
         else
-            print_plan(plan, options);
+            print_plan(plan, options, jobs);
         if (options.status && !options.json) print_rows(sweep, plan, options);
         return;
     }
-    run_here(sweep, plan, options);
+    run_here(sweep, plan, options, jobs);
 }
 
 }  // namespace
@@ -179,7 +179,7 @@ void add_sweep(CLI::App& app) {
         ->needs(slurm)
         ->type_name("WORD");
     command->add_option("--only", options->only, "One job, whose needs are done")->type_name("JOB");
-    command->add_option("--program", options->program, "The actformer that works (default: this one)")
+    command->add_option("--program", options->program, "The actformer that does the jobs (default: this one)")
         ->type_name("PROGRAM");
     command->add_flag("--json", options->json, "Print the results as JSON");
     examples(command,

@@ -1,27 +1,11 @@
 #include "eval/scoring/labels_file.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <fstream>
-#include <optional>
 
 #include "base/error.hpp"
+#include "ingest/dataset/classes.hpp"
 
 namespace actformer::eval {
-namespace {
-
-std::optional<std::uint32_t> label_of(const std::string& action, const std::vector<std::string>& classes) {
-    const auto named = std::find(classes.begin(), classes.end(), action);
-    if (named != classes.end()) return static_cast<std::uint32_t>(named - classes.begin());
-    const char *begin = action.data(), *end = begin + action.size();
-    if (begin != end && *begin == 'A') ++begin;
-    std::uint32_t number = 0;
-    const auto [rest, error] = std::from_chars(begin, end, number);
-    if (error != std::errc() || rest != end || number == 0 || number > classes.size()) return {};
-    return number - 1;
-}
-
-}  // namespace
 
 std::map<std::string, std::uint32_t> read_labels_file(const std::filesystem::path& path,
                                                       const std::vector<std::string>& classes) {
@@ -39,11 +23,9 @@ std::map<std::string, std::uint32_t> read_labels_file(const std::filesystem::pat
         if (gap == std::string::npos)
             throw Error("{}: line {}: names no action beside '{}'", path.string(), number, line);
         const auto action = line.substr(line.find_first_not_of(blanks, gap));
-        const auto label = label_of(action, classes);
-        if (!label)
-            throw Error("{}: line {}: '{}' is none of the {} classes, by name or from 1 on", path.string(),
-                        number, action, classes.size());
-        if (!out.try_emplace(line.substr(0, gap), *label).second)
+        const auto label =
+            ingest::label_called(action, classes, fmt::format("{}: line {}", path.string(), number));
+        if (!out.try_emplace(line.substr(0, gap), label).second)
             throw Error("{}: line {}: '{}' comes twice", path.string(), number, line.substr(0, gap));
     }
     if (out.empty()) throw Error("{}: holds no labels", path.string());

@@ -75,8 +75,4 @@ class Config {
 /// What a configuration's line `model:` says; empty where there is none, or no such file.
 std::string model_named_in(const std::filesystem::path& file);
 
-/// The candidate that takes the fewest insertions, deletions, replacements and swaps to reach from `word`; empty where none
-/// comes near.
-std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
-
 }  // namespace actformer::model

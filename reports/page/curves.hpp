@@ -3,11 +3,18 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace actformer::reports {
 
-/// The numbers that a training's log.jsonl says of its epochs: one object an epoch, `keys` only, lines of the same epoch joined; at
-/// most 500, evenly chosen, the last among them. Empty where there is no log; lines that cannot be read are passed over.
-nlohmann::ordered_json read_curves(const std::filesystem::path& run, const std::vector<std::string>& keys);
+/// The numbers that a training's log.jsonl says of its epochs: one object an epoch, lines of the same epoch joined; at most 500,
+/// evenly chosen, the last among them. Empty where there is no log; lines that cannot be read are passed over.
+nlohmann::ordered_json read_curves(const std::filesystem::path& run);
+
+/// The charts that epochs give, whatever was trained: {"points": epochs, "charts": [{"title", "unit", "from_zero", "series": [{"key",
+/// "name"}]}]}. Losses share a chart, so do a discriminator's scores, and so does what measures one metric (accuracy and
+/// train_accuracy); all else (seconds, rates) is left out. A series is called by what stands before "_loss" or the metric's name,
+/// by `whole` where nothing does.
+nlohmann::ordered_json curve_charts(const nlohmann::ordered_json& epochs, const std::string& whole);
 
 }  // namespace actformer::reports

@@ -7,15 +7,15 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/text/loose_json.hpp"
 #include "eval/scoring/features_file.hpp"
 #include "ingest/dataset/dataset.hpp"
-#include "reports/figures/gather.hpp"
+#include "reports/motions/gather.hpp"
 #include "reports/page/curves.hpp"
 #include "reports/page/moving.hpp"
 #include "reports/page/packed.hpp"
 #include "reports/page/projection.hpp"
 #include "reports/page/tables.hpp"
-#include "reports/sweep/reading.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -46,10 +46,10 @@ bool is_matrix(const Json& confusion, std::size_t n) {
 /// Those with samples on a side, or that samples were taken for.
 Classes classes_of(const Json& scored) {
     Classes out;
-    const auto &all = list(scored, "per_class"), &confusion = member(scored, "confusion");
+    const auto &all = loose::list(scored, "per_class"), &confusion = loose::member(scored, "confusion");
     const bool matrix = is_matrix(confusion, all.size());
     const auto count = [](const Json& one, const char* key) {
-        const auto& value = member(one, key);
+        const auto& value = loose::member(one, key);
         return value.is_number() ? value.get<double>() : 0;
     };
     for (std::uint32_t c = 0; c < all.size(); ++c) {
@@ -62,13 +62,67 @@ Classes classes_of(const Json& scored) {
     return out;
 }
 
-/// {"fid_mean": .., ..} of what has a mean; accuracy in per cent.
-Json means_of(const Json& scored) {
-    Json out = Json::object();
-    for (const char* key :
-         {"accuracy", "fid_mean", "fid_whole", "fida_mean", "fida_whole", "diversity", "multimodality"})
-        if (const auto& mean = member(member(scored, key), "mean"); mean.is_number())
-            out[key] = mean.get<double>() * (std::string_view(key) == "accuracy" ? 100 : 1);
+/// A metric as its numbers are shown: those of a share are in per cent.
+struct Shown {
+    std::string heading, unit;
+    double scale = 1;
+    Better better = Better::lower;
+};
+
+Shown shown(const Metric& metric) {
+    return {metric.heading, metric.scale == 100 ? "%" : "", metric.scale, metric.better};
+}
+
+/// None for what scoring does not know.
+std::optional<Shown> shown(const std::string& metric) {
+    try {
+        return shown(scored_metric(metric));
+    } catch (const Error&) {
+        return {};
+    }
+}
+
+Json scaled(const Json& value, double scale) {
+    return value.is_number() ? Json(scale * value.get<double>()) : Json();
+}
+
+/// What `score` measured, with what real motions come to: [{"heading", "unit", "value", "real", "floor"}]
+Json scores_of(const Json& scored) {
+    Json out = Json::array();
+    for (const auto& [name, measured] : scored.items()) {
+        const auto& mean = loose::member(measured, "mean");
+        const auto how = shown(name);
+        if (!mean.is_number() || !how) continue;
+        out.push_back(
+            {{"heading", how->heading},
+             {"unit", how->unit},
+             {"value", scaled(mean, how->scale)},
+             {"real", scaled(loose::member(loose::member(scored, "real"), name.c_str()), how->scale)},
+             {"floor", scaled(loose::member(loose::member(scored, "floor"), name.c_str()), how->scale)}});
+    }
+    return out;
+}
+
+/// A metric of each class: its key in the scores' "per_class", the metric of all classes that is made of it, and the key of what
+/// real motions come to against one another.
+struct ClassMetric {
+    const char *key, *heading, *metric, *floor;
+};
+constexpr ClassMetric class_metrics[] = {{"accuracy", "accuracy", "accuracy", nullptr},
+                                         {"fid", "FID", "fid_mean", "floor"},
+                                         {"fida", "FIDa", "fida_mean", nullptr}};
+
+/// [{"key", "heading", "unit", "better", "floor"}]: the columns of per_class()
+Json class_columns() {
+    Json out = Json::array();
+    for (const auto& one : class_metrics) {
+        const auto how = shown(scored_metric(one.metric));
+        out.push_back({{"key", one.key},
+                       {"heading", one.heading},
+                       {"unit", how.unit},
+                       {"better", name_of(how.better)},
+                       {"floor", one.floor ? Json(one.floor) : Json()}});
+    }
     return out;
 }
 
@@ -76,16 +130,21 @@ Json per_class(const Json& scored, const Classes& classes) {
     Json out = Json::array();
     for (const auto label : classes.labels) {
         Json one;
-        for (const char* key : {"real", "generated", "accuracy", "fid", "fida", "floor"})
-            one[key] = member(scored["per_class"][label], key);
+        const auto& said = scored["per_class"][label];
+        for (const char* key : {"real", "generated"}) one[key] = loose::member(said, key);
+        for (const auto& metric : class_metrics) {
+            const auto scale = scored_metric(metric.metric).scale;
+            one[metric.key] = scaled(loose::member(said, metric.key), scale);
+            if (metric.floor) one[metric.floor] = scaled(loose::member(said, metric.floor), scale);
+        }
         out.push_back(one);
     }
     return out;
 }
 
 Json confusion_of(const Json& scored, const Classes& classes) {
-    const auto& all = member(scored, "confusion");
-    if (!is_matrix(all, list(scored, "per_class").size())) return {};
+    const auto& all = loose::member(scored, "confusion");
+    if (!is_matrix(all, loose::list(scored, "per_class").size())) return {};
     Json out = Json::array();
     for (const auto asked : classes.labels) {
         Json row = Json::array();
@@ -98,14 +157,11 @@ Json confusion_of(const Json& scored, const Classes& classes) {
 void add_scores(Json& row, const Json& scored, const Classes& classes) {
     row["classes"] = Json::array();
     for (const auto label : classes.labels) {
-        const auto& name = member(scored["per_class"][label], "class");
+        const auto& name = loose::member(scored["per_class"][label], "class");
         row["classes"].push_back(name.is_string() ? name : Json(fmt::format("class {}", label)));
     }
-    row["scores"] = means_of(scored);
-    const auto& accuracy = member(member(scored, "real"), "accuracy");
-    row["real_accuracy"] = accuracy.is_number() ? Json(100 * accuracy.get<double>()) : Json();
-    row["floor"] = member(scored, "floor");
-    row["warnings"] = list(scored, "warnings");
+    row["scores"] = scores_of(scored);
+    row["warnings"] = loose::list(scored, "warnings");
     row["per_class"] = per_class(scored, classes);
     row["confusion"] = confusion_of(scored, classes);
 }
@@ -113,26 +169,24 @@ void add_scores(Json& row, const Json& scored, const Classes& classes) {
 /// A cell's name as people say it: "Table 3 · full · NTU-1P".
 std::string cell_in_words(const std::string& name) {
     try {
-        const auto cell = find_cell(name);
-        return fmt::format("Table {} · {} · {}", cell.table->id.substr(5), cell.table->rows[cell.row].name,
-                           cell.table->columns[cell.columns].dataset);
+        return words_of(find_cell(name));
     } catch (const Error&) {
         return name;
     }
 }
 
-/// How much of the motions there is room for.
-struct Thrift {
+/// What is left of the motions for the page to stay small: motions a class, every n-th frame, every n-th class.
+struct Thinning {
     std::uint32_t samples = 4, frame_step = 1, class_step = 1;
 };
 
 /// Fewer samples first, then fewer frames, then fewer classes, until `full` bytes, which four samples a class at all frames come to,
 /// are within `room`.
-Thrift thrift(double full, double most_samples, double room) {
-    const auto fits = [&](const Thrift& t) {
+Thinning thinning(double full, double most_samples, double room) {
+    const auto fits = [&](const Thinning& t) {
         return full * (t.samples / most_samples) / t.frame_step / t.class_step <= room;
     };
-    Thrift out{static_cast<std::uint32_t>(most_samples), 1, 1};
+    Thinning out{static_cast<std::uint32_t>(most_samples), 1, 1};
     while (!fits(out) && out.samples > 2) --out.samples;
     if (!fits(out)) out.frame_step = 2;
     if (!fits(out)) out.samples = 1;
@@ -146,15 +200,14 @@ class Details {
     Details(Measured& measured, const DetailOptions& options) : measured_(measured), options_(options) {}
 
     Json all() {
-        out_ = {{"version", ACTFORMER_VERSION},
-                {"rows", Json::array()},
-                {"projections", Json::array()},
-                {"topologies", Json::array()},
-                {"motion_sets", Json::array()}};
-        thrift_ = thrift(motion_bytes(), options_.most_samples, static_cast<double>(options_.motion_bytes));
-        if (thrift_.class_step > 1)
+        out_ = {{"version", ACTFORMER_VERSION}, {"class_columns", class_columns()},
+                {"rows", Json::array()},        {"projections", Json::array()},
+                {"topologies", Json::array()},  {"motion_sets", Json::array()}};
+        thinning_ =
+            thinning(motion_bytes(), options_.most_samples, static_cast<double>(options_.motion_bytes));
+        if (thinning_.class_step > 1)
             measured_.notices.push_back(fmt::format(
-                "to keep this file small, motions are shown of one class in {} only", thrift_.class_step));
+                "to keep this file small, motions are shown of one class in {} only", thinning_.class_step));
         for (const auto& row : measured_.rows) out_["rows"].push_back(row_json(row));
         return std::move(out_);
     }
@@ -172,8 +225,7 @@ class Details {
         const auto& scored = run ? run->scored : none;
         const auto classes = classes_of(scored);
         add_scores(out, scored, classes);
-        out["curves"] =
-            run ? curves(*run) : Json{{"generator", Json::array()}, {"recogniser", Json::array()}};
+        out["curves"] = run ? curves(*run) : Json{{"generator", nullptr}, {"recogniser", nullptr}};
         out["projection"] = out["points"] = out["motions"] = nullptr;
         if (!run) return out;
         attempt(row, "features", [&] { add_points(out, row, *run, classes); });
@@ -192,15 +244,8 @@ class Details {
     }
 
     static Json curves(const MeasuredRun& run) {
-        auto recogniser = read_curves(run.recogniser, {"loss", "class_accuracy"});
-        for (auto& epoch : recogniser)
-            if (epoch.contains("class_accuracy")) {
-                epoch["accuracy"] = epoch["class_accuracy"];
-                epoch.erase("class_accuracy");
-            }
-        return {{"generator", read_curves(run.run, {"discriminator_loss", "generator_loss", "real_score",
-                                                    "fake_score", "accuracy", "fid_whole"})},
-                {"recogniser", recogniser}};
+        return {{"generator", curve_charts(read_curves(run.run), "generated motions")},
+                {"recogniser", curve_charts(read_curves(run.recogniser), "recogniser")}};
     }
 
     static Json points_json(const Points& points, const Classes& classes) {
@@ -230,24 +275,25 @@ class Details {
     }
 
     /// The motions of a set with their classes' places; those of unknown and left-out classes are not in it.
-    Json motion_set(const std::vector<Figure>& figures, const Classes& classes, std::uint32_t frames) const {
+    Json motion_set(const std::vector<JointMotion>& motions, const Classes& classes,
+                    std::uint32_t frames) const {
         Json set = Json::array();
-        for (const auto& figure : figures) {
-            const auto place = figure.label ? classes.place(*figure.label) : std::nullopt;
-            if (!place || *place % thrift_.class_step != 0) continue;
-            auto motion = packed_motion(figure, frames, thrift_.frame_step);
-            motion["label"] = *place;
-            set.push_back(std::move(motion));
+        for (const auto& motion : motions) {
+            const auto place = motion.label ? classes.place(*motion.label) : std::nullopt;
+            if (!place || *place % thinning_.class_step != 0) continue;
+            auto packed = packed_motion(motion, frames, thinning_.frame_step);
+            packed["label"] = *place;
+            set.push_back(std::move(packed));
         }
         return set;
     }
 
     void add_motions(Json& out, const MeasuredRow& row, const MeasuredRun& run, const Classes& classes) {
         Wanted wanted;
-        wanted.per_class = thrift_.samples;
+        wanted.per_class = thinning_.samples;
         const auto generated = gather(run.motions, wanted);
         std::uint32_t frames = 0;
-        for (const auto& figure : generated) frames = std::max(frames, figure.frames);
+        for (const auto& motion : generated) frames = std::max(frames, motion.frames);
         wanted.split = row.split;
         const auto key = fmt::format("{}|{}|{}|{}", run.dataset.string(), row.split, frames,
                                      fmt::join(classes.labels, ","));
@@ -298,7 +344,7 @@ class Details {
 
     Measured& measured_;
     DetailOptions options_;
-    Thrift thrift_;
+    Thinning thinning_;
     Json out_;
     std::map<std::string, Projection> projections_;
     std::map<std::string, std::size_t> real_;  ///< among the motion sets

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+
 #include "base/text/printable.hpp"
 
 namespace actformer::reports {
@@ -14,12 +16,15 @@ Json figures_json(const Figures& figures) {
              {"ci95", nullptr},
              {"repeats", figures.repeats},
              {"best", figures.best},
-             {"paper", nullptr}};
+             {"paper", nullptr},
+             {"paper_ci95", nullptr},
+             {"paper_at_hand", figures.paper.at_hand}};
     if (figures.measured) {
         out["mean"] = figures.measured->mean;
         if (figures.measured->half_width) out["ci95"] = *figures.measured->half_width;
     }
-    if (figures.paper) out["paper"] = *figures.paper;
+    if (figures.paper.value) out["paper"] = *figures.paper.value;
+    if (figures.paper.half_width) out["paper_ci95"] = *figures.paper.half_width;
     return out;
 }
 
@@ -27,7 +32,7 @@ Json group_json(const CellGroup& group, const PaperColumns& columns) {
     Json out{{"dataset", columns.dataset}, {"state", in_words(group.state)}};
     out["provenance"] = provenance(group);
     for (std::size_t m = 0; m < columns.metrics.size(); ++m)
-        out["metrics"][columns.metrics[m]] = figures_json(group.figures[m]);
+        out["metrics"][columns.metrics[m].name] = figures_json(group.figures[m]);
     return out;
 }
 
@@ -38,14 +43,21 @@ std::string csv_text(const std::string& text) {
     return out + "\"";
 }
 
-/// mean,ci95,repeats,paper; what there is not is empty.
+/// mean,ci95,repeats,paper,paper_ci95; what there is not is empty.
 std::string csv_figures(const Figures& figures) {
-    std::string mean, half, paper;
-    if (figures.measured) mean = fmt::format("{}", figures.measured->mean);
-    if (figures.measured && figures.measured->half_width)
-        half = fmt::format("{}", *figures.measured->half_width);
-    if (figures.paper) paper = fmt::format("{}", *figures.paper);
-    return fmt::format("{},{},{},{}", mean, half, figures.repeats, paper);
+    const auto text = [](const std::optional<double>& value) {
+        return value ? fmt::format("{}", *value) : std::string();
+    };
+    const auto& [measured, paper] = std::tie(figures.measured, figures.paper);
+    return fmt::format("{},{},{},{},{}", measured ? fmt::format("{}", measured->mean) : "",
+                       measured ? text(measured->half_width) : "", figures.repeats,
+                       paper.at_hand ? text(paper.value) : "not at hand", text(paper.half_width));
+}
+
+/// A group may have been scored without one of its metrics.
+const char* state_of(const CellGroup& group, std::size_t metric) {
+    const bool none = group.state == CellState::measured && !group.figures[metric].measured;
+    return none ? "not measured" : in_words(group.state);
 }
 
 std::string latex_text(const std::string& text) {
@@ -64,10 +76,12 @@ std::string latex_text(const std::string& text) {
 }
 
 /// "FIDa_m" -> "FIDa$_m$"
-std::string latex_heading(const std::string& metric) {
-    auto text = heading_of(metric);
+std::string latex_heading(const Metric& metric) {
+    const auto& text = metric.heading;
     const auto low = text.find('_');
-    const auto arrow = smaller_is_better(metric) ? " $\\downarrow$" : " $\\uparrow$";
+    const auto* const arrow = metric.better == Better::lower    ? " $\\downarrow$"
+                              : metric.better == Better::higher ? " $\\uparrow$"
+                                                                : " $\\rightarrow$";
     if (low == std::string::npos) return latex_text(text) + arrow;
     return latex_text(text.substr(0, low)) + "$_{" + text.substr(low + 1) + "}$" + arrow;
 }
@@ -104,7 +118,7 @@ std::string latex_table(const FilledTable& table) {
     }
     return out +
            fmt::format("\\bottomrule\n\\end{{tabular}}\n\\caption{{{}}}\n\\label{{tab:{}}}\n\\end{{table}}\n",
-                       latex_text(table.paper->title), table.paper->id);
+                       latex_text(table.paper->caption), table.paper->id);
 }
 
 }  // namespace
@@ -120,23 +134,27 @@ nlohmann::ordered_json to_json(const std::vector<FilledTable>& tables,
                 groups.push_back(group_json(table.rows[r][c], table.paper->columns[c]));
             rows.push_back({{"name", table.paper->rows[r].name}, {"groups", groups}});
         }
-        out["tables"].push_back({{"id", table.paper->id}, {"title", table.paper->title}, {"rows", rows}});
+        out["tables"].push_back({{"id", table.paper->id},
+                                 {"title", table.paper->title},
+                                 {"caption", table.paper->caption},
+                                 {"source", table.paper->source},
+                                 {"rows", rows}});
     }
     return out;
 }
 
 std::string to_csv(const std::vector<FilledTable>& tables) {
-    std::string out = "table,row,dataset,metric,state,mean,ci95,repeats,paper\n";
+    std::string out = "table,row,dataset,metric,state,mean,ci95,repeats,paper,paper_ci95\n";
     for (const auto& table : tables)
         for (std::size_t r = 0; r < table.rows.size(); ++r)
             for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
                 const auto& group = table.rows[r][c];
                 const auto& columns = table.paper->columns[c];
                 for (std::size_t m = 0; m < columns.metrics.size(); ++m)
-                    out +=
-                        fmt::format("{},{},{},{},{},{}\n", table.paper->id,
-                                    csv_text(table.paper->rows[r].name), columns.dataset, columns.metrics[m],
-                                    in_words(group.state), csv_figures(group.figures[m]));
+                    out += fmt::format("{},{},{},{},{},{}\n", table.paper->id,
+                                       csv_text(table.paper->rows[r].name), csv_text(columns.dataset),
+                                       columns.metrics[m].name, state_of(group, m),
+                                       csv_figures(group.figures[m]));
             }
     return out;
 }

@@ -14,9 +14,19 @@ bool is_measured(const std::vector<std::vector<CellGroup>>& rows, std::size_t co
     return std::ranges::any_of(rows, [&](const auto& row) { return row[column].row != nullptr; });
 }
 
-/// "Table 3"
-std::string called(const PaperTable& paper) {
-    return "Table " + paper.id.substr(std::string_view("table").size());
+struct Arrow {
+    const char *text, *title;
+};
+
+Arrow arrow(Better better) {
+    switch (better) {
+        case Better::lower:
+            return {"↓", "lower is better"};
+        case Better::higher:
+            return {"↑", "higher is better"};
+        default:
+            return {"→", "nearest to real motions is best"};
+    }
 }
 
 /// A line a dataset column: on which data it was measured, or that nothing was.
@@ -44,11 +54,10 @@ std::string head(const PaperTable& paper) {
         groups += fmt::format("<th class=\"group first\" scope=\"colgroup\" colspan=\"{}\">{}</th>",
                               column.metrics.size(), escaped(column.dataset));
         for (std::size_t m = 0; m < column.metrics.size(); ++m) {
-            const bool smaller = smaller_is_better(column.metrics[m]);
-            metrics += fmt::format(
-                "<th scope=\"col\"{}>{} <span class=\"arrow\" title=\"{} is better\">{}</span></th>",
-                m == 0 ? " class=\"first\"" : "", heading_of(column.metrics[m]), smaller ? "lower" : "higher",
-                smaller ? "↓" : "↑");
+            const auto [text, title] = arrow(column.metrics[m].better);
+            metrics += fmt::format("<th scope=\"col\"{}>{} <span class=\"arrow\" title=\"{}\">{}</span></th>",
+                                   m == 0 ? " class=\"first\"" : "", escaped(column.metrics[m].heading),
+                                   title, text);
         }
     }
     return fmt::format("<thead><tr><th rowspan=\"2\"></th>{}</tr>\n<tr>{}</tr></thead>\n", groups, metrics);
@@ -80,9 +89,9 @@ std::string cell(const CellGroup& group, std::size_t metric) {
     if (figures.best) classes += " best";
     auto out = fmt::format("<td class=\"{}\"{}>{}", classes, group.row ? " tabindex=\"0\"" : "",
                            value(group, figures));
-    if (figures.paper)
-        out += fmt::format("<span class=\"paper{}\" title=\"the paper's figure\">{:.2f}</span>",
-                           figures.paper_best ? " best" : "", *figures.paper);
+    if (const auto paper = paper_text(figures.paper); !paper.empty())
+        out += fmt::format("<span class=\"paper{}\" title=\"as the paper prints it\">{}</span>",
+                           figures.paper_best ? " best" : "", paper);
     return out + tip(group) + "</td>";
 }
 
@@ -136,7 +145,7 @@ std::string html_note(const std::vector<FilledTable>& tables, const std::vector<
                 }
     out += "<div class=\"note\">\n<p>Every large figure below was measured by actformer";
     if (!data.empty()) out += " on " + escaped(fmt::format("{}", fmt::join(data, "; ")));
-    out += ". The small figures are those that the ActFormer paper prints, for comparison only.</p>\n";
+    out += ". The small figures are those that the papers print, for comparison only.</p>\n";
     if (synthetic)
         out +=
             "<p>Synthetic people are not NTU RGB+D: such figures show that the whole chain works, and how "
@@ -146,15 +155,27 @@ std::string html_note(const std::vector<FilledTable>& tables, const std::vector<
     return out + "</div>\n";
 }
 
+std::string html_links(const std::vector<FilledTable>& tables) {
+    std::string out;
+    for (const auto& table : tables) {
+        const std::string word = "Table ", title = table.paper->title;
+        out +=
+            fmt::format("{}<a href=\"#{}\" aria-label=\"{}\">{}</a>", out.empty() ? "" : " ", table.paper->id,
+                        escaped(title), escaped(title.starts_with(word) ? title.substr(word.size()) : title));
+    }
+    return out;
+}
+
 std::string html_tables(const std::vector<FilledTable>& tables) {
     std::string out;
     for (const auto& table : tables)
         out += fmt::format(
-            "<section class=\"table\" id=\"{}\">\n<h2>{} <small>{}</small></h2>\n{}<div "
+            "<section class=\"table\" id=\"{}\">\n<h2>{} <small>{}</small></h2>\n<p "
+            "class=\"source\">{}</p>\n{}<div "
             "class=\"scroll\"><table>\n{}{}"
             "</table></div>\n</section>\n",
-            table.paper->id, called(*table.paper), escaped(table.paper->title), data_lines(table),
-            head(*table.paper), body(table));
+            table.paper->id, escaped(table.paper->title), escaped(table.paper->caption),
+            escaped(table.paper->source), data_lines(table), head(*table.paper), body(table));
     return out;
 }
 

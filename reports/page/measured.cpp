@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "reports/sweep/reading.hpp"
+#include "base/text/loose_json.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 /// The member's elements that are objects.
 std::vector<Json> objects(const Json& object, const char* key) {
     std::vector<Json> out;
-    std::ranges::copy_if(list(object, key), std::back_inserter(out),
+    std::ranges::copy_if(loose::list(object, key), std::back_inserter(out),
                          [](const Json& one) { return one.is_object(); });
     return out;
 }
@@ -26,11 +26,11 @@ Json read_results(const fs::path& folder) {
     if (!fs::is_regular_file(path))
         throw Error("{}: no results.json in it; give the folder that `actformer sweep FILE -o FOLDER` wrote",
                     folder.string());
-    auto json = read_json(path);
-    if (!member(json, "rows").is_array())
+    auto json = loose::read(path);
+    if (!loose::member(json, "rows").is_array())
         throw Error("{}: damaged, or not a sweep's results; `actformer sweep` again writes it anew",
                     path.string());
-    if (member(json, "format") != Json(1))
+    if (loose::member(json, "format") != Json(1))
         throw Error("{}: results of another version of actformer; `actformer sweep` again writes them anew",
                     path.string());
     return json;
@@ -39,7 +39,7 @@ Json read_results(const fs::path& folder) {
 /// What the scores of a run that is done say; null and a notice where they cannot be read.
 Json read_scores(const MeasuredRun& run, const std::string& row, std::vector<std::string>& notices) {
     if (run.status != "done") return {};
-    auto json = read_json(run.scores);
+    auto json = loose::read(run.scores);
     if (json.is_object()) return json;
     notices.push_back(fmt::format("{}, seed {}: {} is {}; `actformer sweep` again makes it anew", row,
                                   run.seed, run.scores.string(),
@@ -49,11 +49,11 @@ Json read_scores(const MeasuredRun& run, const std::string& row, std::vector<std
 
 MeasuredRun read_run(const Json& json, const fs::path& folder) {
     MeasuredRun run;
-    if (const auto& seed = member(json, "seed"); seed.is_number_unsigned()) run.seed = seed;
-    run.status = text(json, "status");
-    run.why = text(json, "why");
+    if (const auto& seed = loose::member(json, "seed"); seed.is_number_unsigned()) run.seed = seed;
+    run.status = loose::text(json, "status");
+    run.why = loose::text(json, "why");
     const auto path = [&](const char* key) {
-        const auto said = text(json, key);
+        const auto said = loose::text(json, key);
         return said.empty() ? fs::path() : folder / said;  // whole paths stay as they are
     };
     run.scores = path("scores");
@@ -67,16 +67,16 @@ MeasuredRun read_run(const Json& json, const fs::path& folder) {
 
 /// "660 synthetic clips (seed 1)", "recordings in a.zip and b.zip".
 std::string data_in_words(const Json& row) {
-    const auto& data = member(row, "data");
-    const auto name = "‘" + text(row, "dataset") + "’";
-    if (const auto& clips = member(data, "synthetic"); clips.is_number_unsigned())
+    const auto& data = loose::member(row, "data");
+    const auto name = "‘" + loose::text(row, "dataset") + "’";
+    if (const auto& clips = loose::member(data, "synthetic"); clips.is_number_unsigned())
         return fmt::format("{}: {} clips of synthetic people, no one was recorded", name,
                            clips.get<std::uint64_t>());
     std::string raw;
-    for (const auto& file : list(data, "raw"))
+    for (const auto& file : loose::list(data, "raw"))
         if (file.is_string()) raw += (raw.empty() ? "" : ", ") + file.get<std::string>();
     if (!raw.empty()) return fmt::format("{}: recordings in {}", name, raw);
-    const auto path = text(data, "path");
+    const auto path = loose::text(data, "path");
     return path.empty() ? name : fmt::format("{}: the dataset in {}", name, path);
 }
 
@@ -84,13 +84,13 @@ MeasuredRow read_row(const Json& json, const std::string& sweep, const fs::path&
                      std::vector<std::string>& notices) {
     MeasuredRow row;
     row.sweep = sweep;
-    row.name = text(json, "name");
-    row.status = text(json, "status");
-    row.why = text(json, "why");
-    for (const auto& cell : list(json, "fills"))
+    row.name = loose::text(json, "name");
+    row.status = loose::text(json, "status");
+    row.why = loose::text(json, "why");
+    for (const auto& cell : loose::list(json, "fills"))
         if (cell.is_string()) row.fills.push_back(cell);
-    row.dataset = text(json, "dataset");
-    row.split = text(json, "split");
+    row.dataset = loose::text(json, "dataset");
+    row.split = loose::text(json, "split");
     row.data = data_in_words(json);
     row.settings = json.value("settings", Json::object());
     for (const auto& one : objects(json, "runs")) {
@@ -114,7 +114,7 @@ Measured read_measured(const std::vector<fs::path>& folders) {
     for (const auto& folder : folders) {
         const auto json = read_results(folder);
         for (const auto& row : objects(json, "rows"))
-            out.rows.push_back(read_row(row, text(json, "sweep"), fs::absolute(folder), out.notices));
+            out.rows.push_back(read_row(row, loose::text(json, "sweep"), fs::absolute(folder), out.notices));
     }
     return out;
 }

@@ -31,12 +31,12 @@ struct Box {
 };
 
 /// Joints (frames / step, persons, K, 3), with bodies that are not there put where they were last seen.
-std::vector<float> shown_joints(const Figure& figure, std::uint32_t frames, std::uint32_t step) {
-    auto joints = figure.joints;
-    const std::size_t body = figure.topology.joints() * 3, frame = figure.persons * body;
+std::vector<float> shown_joints(const JointMotion& motion, std::uint32_t frames, std::uint32_t step) {
+    auto joints = motion.joints;
+    const std::size_t body = motion.topology.joints() * 3, frame = motion.persons * body;
     for (std::uint32_t t = 1; t < frames; ++t)
-        for (std::uint32_t p = 0; p < figure.persons; ++p)
-            if (!figure.visible(t, p))
+        for (std::uint32_t p = 0; p < motion.persons; ++p)
+            if (!motion.visible(t, p))
                 std::copy_n(&joints[(t - 1) * frame + p * body], body, &joints[t * frame + p * body]);
     std::vector<float> out;
     for (std::uint32_t t = 0; t < frames; t += step)
@@ -46,9 +46,9 @@ std::vector<float> shown_joints(const Figure& figure, std::uint32_t frames, std:
 
 }  // namespace
 
-nlohmann::ordered_json packed_motion(const Figure& figure, std::uint32_t frames, std::uint32_t step) {
+nlohmann::ordered_json packed_motion(const JointMotion& motion, std::uint32_t frames, std::uint32_t step) {
     constexpr float most = 32767;
-    const auto joints = shown_joints(figure, std::min(frames, figure.frames), step);
+    const auto joints = shown_joints(motion, std::min(frames, motion.frames), step);
     const Box box(joints);
     const float scale = std::max(box.half(), 1e-3F) / most;
     std::vector<std::int16_t> whole(joints.size());
@@ -56,11 +56,11 @@ nlohmann::ordered_json packed_motion(const Figure& figure, std::uint32_t frames,
         const float steps = std::round((joints[i] - box.centre(i % 3)) / scale);
         whole[i] = static_cast<std::int16_t>(std::clamp(steps, -most, most));
     }
-    Json out{{"label", figure.label ? Json(*figure.label) : Json(nullptr)},
-             {"title", figure.title},
-             {"persons", figure.persons},
-             {"frames", joints.size() / (figure.persons * figure.topology.joints() * 3)},
-             {"fps", figure.fps / step}};
+    Json out{{"label", motion.label ? Json(*motion.label) : Json(nullptr)},
+             {"title", motion.title},
+             {"persons", motion.persons},
+             {"frames", joints.size() / (motion.persons * motion.topology.joints() * 3)},
+             {"fps", motion.fps / step}};
     out["origin"] = {box.centre(0), box.centre(1), box.centre(2)};
     out["scale"] = scale;
     out["xyz"] = packed(whole);

@@ -48,6 +48,7 @@ std::string page(const std::string& title, const std::vector<FilledTable>& table
         script += page_part(name);
     return filled(page_part("page.html"), {{"title", escaped(title)},
                                            {"style", std::string(page_part("page.css"))},
+                                           {"links", html_links(tables)},
                                            {"note", html_note(tables, notices)},
                                            {"tables", html_tables(tables)},
                                            {"data", embedded(data)},

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "eval/scoring/score_report.hpp"
-#include "reports/sweep/reading.hpp"
+#include "base/text/loose_json.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -15,13 +14,24 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The repeats of one metric over all runs that have scores.
-std::vector<double> repeats_of(const MeasuredRow& row, const std::string& metric) {
+std::vector<double> repeats_of(const MeasuredRow& row, const Metric& metric) {
     std::vector<double> values;
-    const double scale = metric == "accuracy" ? 100 : 1;
     for (const auto& run : row.runs)
-        for (const auto& value : list(member(run.scored, metric.c_str()), "repeats"))
-            if (value.is_number()) values.push_back(scale * value.get<double>());
+        for (const auto& value : loose::list(loose::member(run.scored, metric.name.c_str()), "repeats"))
+            if (value.is_number()) values.push_back(metric.scale * value.get<double>());
     return values;
+}
+
+/// What real motions come to, the mean over all runs whose scores tell.
+std::optional<double> real_value(const MeasuredRow& row, const Metric& metric) {
+    double sum = 0, count = 0;
+    for (const auto& run : row.runs)
+        if (const auto& value = loose::member(loose::member(run.scored, "real"), metric.name.c_str());
+            value.is_number()) {
+            sum += metric.scale * value.get<double>();
+            ++count;
+        }
+    return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
 CellState state_of(const MeasuredRow& row) {
@@ -37,6 +47,7 @@ void fill(CellGroup& group, const PaperColumns& columns, const MeasuredRow& row)
         auto& figures = group.figures[m];
         figures.repeats = values.size();
         figures.measured = values.empty() ? std::nullopt : std::optional(eval::interval(values));
+        figures.real = real_value(row, columns.metrics[m]);
     }
 }
 
@@ -44,68 +55,87 @@ FilledTable empty_table(const PaperTable& paper) {
     FilledTable table{&paper, {}};
     for (const auto& row : paper.rows) {
         auto& groups = table.rows.emplace_back(paper.columns.size());
-        for (std::size_t c = 0; c < paper.columns.size(); ++c) {
-            groups[c].figures.resize(paper.columns[c].metrics.size());
-            for (std::size_t m = 0; m < row.figures[c].size(); ++m)
-                groups[c].figures[m].paper = row.figures[c][m];
-        }
+        for (std::size_t c = 0; c < paper.columns.size(); ++c)
+            for (const auto& figure : row.figures[c]) groups[c].figures.push_back({{}, 0, {}, figure});
     }
     return table;
 }
 
-/// Marks the figures whose value, which `of` gives where there is one, is the best of all rows'.
-template <typename Of>
-void mark_best(FilledTable& table, std::size_t column, std::size_t metric, Of of, bool Figures::*mark) {
-    const double sign = smaller_is_better(table.paper->columns[column].metrics[metric]) ? 1 : -1;
+/// One metric of one dataset, over all rows.
+struct Column {
+    FilledTable& table;
+    std::size_t dataset, metric;
+
+    Figures& at(std::size_t row) { return table.rows[row][dataset].figures[metric]; }
+    Better better() const { return table.paper->columns[dataset].metrics[metric].better; }
+};
+
+/// Marks the rows whose value, which `value` gives where there is one, is the best; `real` gives what real motions have beside it. The
+/// row of real motions is no candidate.
+template <typename Value, typename Real>
+void mark_best(Column column, Value value, Real real, bool Figures::*mark) {
+    std::vector<std::optional<double>> distances(column.table.rows.size());
     std::optional<double> best;
-    const auto value = [&](const std::vector<CellGroup>& row) -> std::optional<double> {
-        return of(row[column].figures[metric]);
+    for (std::size_t r = 0; r < distances.size(); ++r) {
+        const std::optional<double> mine = value(column.at(r)), ideal = real(column.at(r));
+        const bool comparable = ideal || column.better() != Better::nearest_to_real;
+        if (!mine || !std::isfinite(*mine) || !comparable || column.table.paper->real == r) continue;
+        distances[r] = distance_from_best(column.better(), *mine, ideal.value_or(0));
+        if (!best || *distances[r] < *best) best = distances[r];
+    }
+    for (std::size_t r = 0; r < distances.size(); ++r)
+        if (distances[r] && *distances[r] == *best) column.at(r).*mark = true;
+}
+
+void mark_best(Column column) {
+    const auto measured = [](const Figures& f) {
+        return f.measured ? std::optional(f.measured->mean) : std::nullopt;
     };
-    for (const auto& row : table.rows)
-        if (const auto v = value(row); v && (!best || sign * *v < sign * *best)) best = v;
-    for (auto& row : table.rows)
-        if (const auto v = value(row); v && *v == *best) row[column].figures[metric].*mark = true;
+    const auto printed = [](const Figures& f) { return f.paper.value; };
+    const auto real_row = column.table.paper->real;
+    const auto measured_real = real_row ? measured(column.at(*real_row)) : std::nullopt;
+    const auto printed_real = real_row ? printed(column.at(*real_row)) : std::nullopt;
+    mark_best(
+        column, measured, [&](const Figures& f) { return f.real ? f.real : measured_real; }, &Figures::best);
+    mark_best(
+        column, printed, [&](const Figures&) { return printed_real; }, &Figures::paper_best);
 }
 
 void mark_best(FilledTable& table) {
-    const auto measured = [](const Figures& f) {
-        return f.measured && std::isfinite(f.measured->mean) ? std::optional(f.measured->mean) : std::nullopt;
-    };
     for (std::size_t c = 0; c < table.paper->columns.size(); ++c)
-        for (std::size_t m = 0; m < table.paper->columns[c].metrics.size(); ++m) {
-            mark_best(table, c, m, measured, &Figures::best);
-            mark_best(
-                table, c, m, [](const Figures& f) { return f.paper; }, &Figures::paper_best);
-        }
+        for (std::size_t m = 0; m < table.paper->columns[c].metrics.size(); ++m)
+            mark_best(Column{table, c, m});
 }
 
 /// What the scores say of where they come from.
 void add_score_lines(const Json& scored, std::vector<std::string>& lines) {
-    const auto& from = member(scored, "provenance");
-    const auto &real = member(from, "real"), &eyes = member(from, "recogniser");
-    if (!member(real, "fingerprint").is_null())
-        lines.push_back(fmt::format("real side: {}, split {}, fingerprint {}", text(real, "dataset"),
-                                    text(real, "split"), text(real, "fingerprint").substr(0, 16)));
-    if (!member(eyes, "checksum").is_null())
-        lines.push_back("recogniser: checksum " + text(eyes, "checksum").substr(0, 16));
-    if (!member(from, "version").is_null()) lines.push_back("actformer " + text(from, "version"));
+    const auto& from = loose::member(scored, "provenance");
+    const auto &real = loose::member(from, "real"), &recogniser = loose::member(from, "recogniser");
+    if (!loose::member(real, "fingerprint").is_null())
+        lines.push_back(fmt::format("real side: {}, split {}, fingerprint {}", loose::text(real, "dataset"),
+                                    loose::text(real, "split"),
+                                    loose::text(real, "fingerprint").substr(0, 16)));
+    if (!loose::member(recogniser, "checksum").is_null())
+        lines.push_back("recogniser: checksum " + loose::text(recogniser, "checksum").substr(0, 16));
+    if (!loose::member(from, "version").is_null())
+        lines.push_back("actformer " + loose::text(from, "version"));
 }
 
 }  // namespace
 
-std::vector<FilledTable> fill_tables(Measured& measured) {
+std::vector<FilledTable> fill_tables(Measured& measured, const std::vector<PaperTable>& papers) {
     std::vector<FilledTable> tables;
-    for (const auto& paper : paper_tables()) tables.push_back(empty_table(paper));
+    for (const auto& paper : papers) tables.push_back(empty_table(paper));
     for (const auto& row : measured.rows)
         for (const auto& name : row.fills) {
             Cell cell;
             try {
-                cell = find_cell(name);
+                cell = find_cell(name, papers);
             } catch (const Error& error) {
                 measured.notices.push_back(fmt::format("{}: {}", row.name, error.what()));
                 continue;
             }
-            const auto table = static_cast<std::size_t>(cell.table - paper_tables().data());
+            const auto table = static_cast<std::size_t>(cell.table - papers.data());
             auto& group = tables[table].rows[cell.row][cell.columns];
             if (group.row)
                 measured.notices.push_back(
@@ -122,21 +152,20 @@ const char* in_words(CellState state) {
     return words[static_cast<std::size_t>(state)];
 }
 
-std::string heading_of(const std::string& metric) {
-    if (metric == "accuracy") return "Acc. %";
-    const auto* found = eval::find_metric(metric);
-    return found ? std::string(found->heading) : metric;
-}
-
-bool smaller_is_better(const std::string& metric) {
-    const auto* found = eval::find_metric(metric);
-    return found && found->direction == eval::Direction::lower;
-}
-
 std::string figure_text(double value) {
     const auto size = std::abs(value);
+    if (size >= 1e5) return fmt::format("{:.3g}", value);
     if (size == 0 || size >= 0.1 || !std::isfinite(value)) return fmt::format("{:.2f}", value);
     return fmt::format("{:.2g}", value);
+}
+
+std::string paper_text(const PaperFigure& figure) {
+    if (!figure.at_hand) return "not at hand";
+    if (!figure.value) return "";
+    const auto number = [](double value) {
+        return std::abs(value) >= 1e5 ? fmt::format("{:.3g}", value) : fmt::format("{:.2f}", value);
+    };
+    return number(*figure.value) + (figure.half_width ? " ± " + number(*figure.half_width) : "");
 }
 
 std::vector<std::string> provenance(const CellGroup& group) {

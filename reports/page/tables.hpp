@@ -9,12 +9,13 @@
 
 namespace actformer::reports {
 
-/// One metric. Accuracies in per cent.
+/// One metric, scaled as its table prints it.
 struct Figures {
     std::optional<eval::Interval> measured;  ///< over all repeats of all done runs of the row
     std::size_t repeats = 0;
-    std::optional<double> paper;
-    bool best = false, paper_best = false;  ///< of the table's column
+    std::optional<double> real;  ///< of real motions, where the scores tell
+    PaperFigure paper;
+    bool best = false, paper_best = false;  ///< of the table's column, by the metric's direction
 };
 
 enum class CellState { not_run, waiting, failed, measured };
@@ -34,17 +35,16 @@ struct FilledTable {
     std::vector<std::vector<CellGroup>> rows;  ///< (paper rows, datasets)
 };
 
-/// Of all tables, whether anything fills them or not. Points into `measured`, whose notices get a line for every cell that is not
+/// Of all tables, whether anything fills them or not. Points into `papers` and into `measured`, whose notices get a line for every cell that is not
 /// one, or that two rows fill: the one read last counts.
-std::vector<FilledTable> fill_tables(Measured& measured);
+std::vector<FilledTable> fill_tables(Measured& measured,
+                                     const std::vector<PaperTable>& papers = paper_tables());
 
-/// "Acc.", "FIDm"
-std::string heading_of(const std::string& metric);
-
-bool smaller_is_better(const std::string& metric);
-
-/// Two digits after the point, as the paper has them, more where the number is below 0.1.
+/// Two digits after the point, as papers have them; more of a number below 0.1, three in all from 100,000 on.
 std::string figure_text(double value);
+
+/// "42.01", "98.80 ± 0.10", "not at hand"; empty where the paper prints none.
+std::string paper_text(const PaperFigure& figure);
 
 /// Where a group's figures come from, a line each: sweep, row and seeds, settings, data and its fingerprint, recogniser, version.
 std::vector<std::string> provenance(const CellGroup& group);

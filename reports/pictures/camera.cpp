@@ -14,8 +14,8 @@ namespace {
 
 const cv::Vec3d vertical{0, 1, 0};
 
-cv::Vec3d point(const Figure& figure, std::size_t frame, std::size_t person, std::size_t joint) {
-    const float* x = figure.at(frame, person, joint);
+cv::Vec3d point(const JointMotion& motion, std::size_t frame, std::size_t person, std::size_t joint) {
+    const float* x = motion.at(frame, person, joint);
     return {x[0], x[1], x[2]};
 }
 
@@ -25,10 +25,10 @@ cv::Vec3d flat(const cv::Vec3d& v) {
 
 /// Calls `use(frame, person)` for every visible body.
 template <typename Use>
-void for_bodies(const Figure& figure, Use use) {
-    for (std::size_t t = 0; t < figure.frames; ++t)
-        for (std::size_t p = 0; p < figure.persons; ++p)
-            if (figure.visible(t, p)) use(t, p);
+void for_bodies(const JointMotion& motion, Use use) {
+    for (std::size_t t = 0; t < motion.frames; ++t)
+        for (std::size_t p = 0; p < motion.persons; ++p)
+            if (motion.visible(t, p)) use(t, p);
 }
 
 /// Pairs of joints whose names differ in the side alone.
@@ -52,14 +52,14 @@ std::vector<std::pair<std::size_t, std::size_t>> left_right_pairs(const ingest::
 }
 
 /// The horizontal direction that a body faces, from its left and right joints; zero where it cannot be told.
-cv::Vec3d faces(const Figure& figure, std::size_t frame, std::size_t person,
+cv::Vec3d faces(const JointMotion& motion, std::size_t frame, std::size_t person,
                 const std::vector<std::pair<std::size_t, std::size_t>>& pairs) {
     cv::Vec3d to_right{0, 0, 0};
     for (const auto& [l, r] : pairs) {
         // Joints near the root (hips, shoulders) tell more than hands: weigh by 1 / (1 + depth)^2.
         double depth = 1;
-        for (int j = figure.topology.parents[l]; j >= 0; j = figure.topology.parents[j]) ++depth;
-        to_right += (point(figure, frame, person, r) - point(figure, frame, person, l)) / (depth * depth);
+        for (int j = motion.topology.parents[l]; j >= 0; j = motion.topology.parents[j]) ++depth;
+        to_right += (point(motion, frame, person, r) - point(motion, frame, person, l)) / (depth * depth);
     }
     const cv::Vec3d ahead = vertical.cross(flat(to_right));
     const double length = cv::norm(ahead);
@@ -67,16 +67,16 @@ cv::Vec3d faces(const Figure& figure, std::size_t frame, std::size_t person,
 }
 
 /// Root positions seen, as the direction in which they differ most between persons; zero for one person.
-cv::Vec3d line_of_persons(const Figure& figure) {
-    std::vector<cv::Vec3d> sums(figure.persons, {0, 0, 0});
-    std::vector<double> counts(figure.persons, 0);
-    for_bodies(figure, [&](std::size_t t, std::size_t p) {
-        sums[p] += flat(point(figure, t, p, 0));
+cv::Vec3d line_of_persons(const JointMotion& motion) {
+    std::vector<cv::Vec3d> sums(motion.persons, {0, 0, 0});
+    std::vector<double> counts(motion.persons, 0);
+    for_bodies(motion, [&](std::size_t t, std::size_t p) {
+        sums[p] += flat(point(motion, t, p, 0));
         ++counts[p];
     });
     cv::Vec3d best{0, 0, 0};
-    for (std::size_t a = 0; a < figure.persons; ++a)
-        for (std::size_t b = a + 1; b < figure.persons; ++b)
+    for (std::size_t a = 0; a < motion.persons; ++a)
+        for (std::size_t b = a + 1; b < motion.persons; ++b)
             if (counts[a] > 0 && counts[b] > 0)
                 if (const cv::Vec3d d = sums[a] / counts[a] - sums[b] / counts[b];
                     cv::norm(d) > cv::norm(best))
@@ -86,16 +86,16 @@ cv::Vec3d line_of_persons(const Figure& figure) {
 
 /// Where azimuth 0 looks from: the persons' faces; two who face each other are seen from the side, so that
 /// neither hides the other.
-cv::Vec3d front_of(const Figure& figure) {
-    const auto pairs = left_right_pairs(figure.topology);
+cv::Vec3d front_of(const JointMotion& motion) {
+    const auto pairs = left_right_pairs(motion.topology);
     cv::Vec3d sum{0, 0, 0};
     double bodies = 0;
-    for_bodies(figure, [&](std::size_t t, std::size_t p) {
-        sum += faces(figure, t, p, pairs);
+    for_bodies(motion, [&](std::size_t t, std::size_t p) {
+        sum += faces(motion, t, p, pairs);
         ++bodies;
     });
     const bool agree = cv::norm(sum) > 0.5 * bodies;
-    if (const auto line = line_of_persons(figure); !agree && cv::norm(line) > 1e-3) {
+    if (const auto line = line_of_persons(motion); !agree && cv::norm(line) > 1e-3) {
         const auto across = vertical.cross(line) / cv::norm(line);
         return across.dot(sum) < 0 ? -across : across;
     }
@@ -120,14 +120,14 @@ std::pair<double, double> robust_range(std::vector<double> values) {
 
 /// The middle of the visible roots in each frame, at height 0, smoothed over about a second; held where
 /// nobody is seen.
-std::vector<cv::Vec3d> path_of_group(const Figure& figure) {
-    std::vector<cv::Vec3d> middle(figure.frames, {0, 0, 0});
-    std::vector<bool> known(figure.frames, false);
-    for (std::size_t t = 0; t < figure.frames; ++t) {
+std::vector<cv::Vec3d> path_of_group(const JointMotion& motion) {
+    std::vector<cv::Vec3d> middle(motion.frames, {0, 0, 0});
+    std::vector<bool> known(motion.frames, false);
+    for (std::size_t t = 0; t < motion.frames; ++t) {
         double bodies = 0;
-        for (std::size_t p = 0; p < figure.persons; ++p)
-            if (figure.visible(t, p)) {
-                middle[t] += flat(point(figure, t, p, 0));
+        for (std::size_t p = 0; p < motion.persons; ++p)
+            if (motion.visible(t, p)) {
+                middle[t] += flat(point(motion, t, p, 0));
                 ++bodies;
             }
         known[t] = bodies > 0;
@@ -140,9 +140,9 @@ std::vector<cv::Vec3d> path_of_group(const Figure& figure) {
     const auto first = static_cast<std::size_t>(std::ranges::find(known, true) - known.begin());
     std::fill_n(middle.begin(), first, middle[first]);
 
-    const auto sigma = std::min(0.4 * figure.fps, 200.0);
+    const auto sigma = std::min(0.4 * motion.fps, 200.0);
     const auto radius = static_cast<std::ptrdiff_t>(2.5 * sigma);
-    std::vector<cv::Vec3d> smooth(figure.frames);
+    std::vector<cv::Vec3d> smooth(motion.frames);
     for (std::ptrdiff_t t = 0; t < std::ssize(middle); ++t) {
         cv::Vec3d sum{0, 0, 0};
         double weight = 0;
@@ -157,12 +157,12 @@ std::vector<cv::Vec3d> path_of_group(const Figure& figure) {
     return smooth;
 }
 
-double floor_of(const Figure& figure) {
+double floor_of(const JointMotion& motion) {
     std::vector<double> lowest;
-    for_bodies(figure, [&](std::size_t t, std::size_t p) {
-        double low = figure.at(t, p, 0)[1];
-        for (std::size_t j = 1; j < figure.topology.joints(); ++j)
-            low = std::min<double>(low, figure.at(t, p, j)[1]);
+    for_bodies(motion, [&](std::size_t t, std::size_t p) {
+        double low = motion.at(t, p, 0)[1];
+        for (std::size_t j = 1; j < motion.topology.joints(); ++j)
+            low = std::min<double>(low, motion.at(t, p, j)[1]);
         lowest.push_back(low);
     });
     return percentile(lowest, 0.05);
@@ -170,14 +170,14 @@ double floor_of(const Figure& figure) {
 
 /// Metres along the limbs from the root to the furthest tip, of the largest person; 1 for a body without
 /// limbs.
-double reach_of(const Figure& figure) {
-    const auto k = figure.topology.joints();
-    const auto lengths = limb_lengths(figure);
+double reach_of(const JointMotion& motion) {
+    const auto k = motion.topology.joints();
+    const auto lengths = limb_lengths(motion);
     double reach = 0;
-    for (std::size_t p = 0; p < figure.persons; ++p) {
+    for (std::size_t p = 0; p < motion.persons; ++p) {
         std::vector<double> from_root(k, 0);
-        for (const auto j : figure.topology.order())
-            if (const int parent = figure.topology.parents[j]; parent >= 0) {
+        for (const auto j : motion.topology.order())
+            if (const int parent = motion.topology.parents[j]; parent >= 0) {
                 from_root[j] = from_root[parent] + lengths[p * k + j];
                 reach = std::max(reach, from_root[j]);
             }
@@ -218,18 +218,18 @@ cv::Vec3d Camera::on_floor(cv::Point2d pixel, double height) const {
     return out;
 }
 
-std::vector<double> limb_lengths(const Figure& figure) {
-    const auto k = figure.topology.joints();
-    std::vector<double> out(figure.persons * k, 0);
-    const std::size_t step = std::max<std::size_t>(1, figure.frames / 200);
+std::vector<double> limb_lengths(const JointMotion& motion) {
+    const auto k = motion.topology.joints();
+    std::vector<double> out(motion.persons * k, 0);
+    const std::size_t step = std::max<std::size_t>(1, motion.frames / 200);
     std::vector<double> lengths;
-    for (std::size_t p = 0; p < figure.persons; ++p)
+    for (std::size_t p = 0; p < motion.persons; ++p)
         for (std::size_t j = 1; j < k; ++j) {
             lengths.clear();
-            for (std::size_t t = 0; t < figure.frames; t += step)
-                if (figure.visible(t, p))
+            for (std::size_t t = 0; t < motion.frames; t += step)
+                if (motion.visible(t, p))
                     lengths.push_back(
-                        cv::norm(point(figure, t, p, j) - point(figure, t, p, figure.topology.parents[j])));
+                        cv::norm(point(motion, t, p, j) - point(motion, t, p, motion.topology.parents[j])));
             if (!lengths.empty()) out[p * k + j] = percentile(lengths, 0.5);
         }
     return out;
@@ -252,20 +252,20 @@ Side side_of(const std::string& joint_name) {
     return Side::middle;
 }
 
-Framing::Framing(const Figure& figure, const View& view)
+Framing::Framing(const JointMotion& motion, const View& view)
     : view_(view),
-      frames_(figure.frames),
-      facing_(front_of(figure)),
-      floor_(floor_of(figure)),
-      reach_(reach_of(figure)),
-      centres_(path_of_group(figure)) {
+      frames_(motion.frames),
+      facing_(front_of(motion)),
+      floor_(floor_of(motion)),
+      reach_(reach_of(motion)),
+      centres_(path_of_group(motion)) {
     const auto moving = centres_;
     cv::Vec3d mean{0, 0, 0};
     for (const auto& c : moving) mean += c / static_cast<double>(moving.size());
 
-    const auto followed = extent(figure);
+    const auto followed = extent(motion);
     centres_.assign(frames_, mean);
-    box_ = extent(figure);
+    box_ = extent(motion);
     // Going along pays where standing still would make the persons less than three quarters the size.
     if (std::max(box_.width, box_.height) > 1.3 * std::max(followed.width, followed.height)) {
         follows_ = true;
@@ -288,16 +288,16 @@ Camera Framing::oriented(std::size_t frame) const {
     return {std::cos(el) * level + std::sin(el) * vertical, vertical.cross(level)};
 }
 
-cv::Rect2d Framing::extent(const Figure& figure) const {
+cv::Rect2d Framing::extent(const JointMotion& motion) const {
     std::vector<double> xs, ys;
-    xs.reserve(figure.joints.size() / 3);
-    ys.reserve(figure.joints.size() / 3);
-    for (std::size_t t = 0; t < figure.frames; ++t) {
+    xs.reserve(motion.joints.size() / 3);
+    ys.reserve(motion.joints.size() / 3);
+    for (std::size_t t = 0; t < motion.frames; ++t) {
         auto camera = oriented(t);
         camera.place(centres_[t], 1, {0, 0});
-        for (std::size_t p = 0; p < figure.persons; ++p)
-            for (std::size_t j = 0; figure.visible(t, p) && j < figure.topology.joints(); ++j) {
-                const auto seen = camera.project(point(figure, t, p, j));
+        for (std::size_t p = 0; p < motion.persons; ++p)
+            for (std::size_t j = 0; motion.visible(t, p) && j < motion.topology.joints(); ++j) {
+                const auto seen = camera.project(point(motion, t, p, j));
                 xs.push_back(seen.x);
                 ys.push_back(-seen.y);
             }

@@ -1,11 +1,11 @@
-// Where a figure is seen from, and how large: an orthographic camera that keeps its scale over time.
+// Where a motion is seen from, and how large: an orthographic camera that keeps its scale over time.
 #pragma once
 
 #include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
-#include "reports/figures/figure.hpp"
+#include "reports/motions/joint_motion.hpp"
 
 namespace actformer::reports {
 
@@ -56,12 +56,12 @@ class Camera {
     cv::Point2d offset_{0, 0};
 };
 
-/// How a figure is framed: one camera a frame, all of one scale.
+/// How a motion is framed: one camera a frame, all of one scale.
 class Framing {
   public:
-    /// Looks at `figure` so that the whole motion fits. A joint that flies off for a moment does not shrink
+    /// Looks at `motion` so that the whole motion fits. A joint that flies off for a moment does not shrink
     /// everything else. Where the persons travel far, the camera goes along with them.
-    Framing(const Figure& figure, const View& view);
+    Framing(const JointMotion& motion, const View& view);
 
     /// Width to height of what is to be seen.
     double aspect() const { return box_.width / box_.height; }
@@ -76,7 +76,7 @@ class Framing {
 
   private:
     Camera oriented(std::size_t frame) const;
-    cv::Rect2d extent(const Figure& figure) const;
+    cv::Rect2d extent(const JointMotion& motion) const;
 
     View view_;
     std::size_t frames_;
@@ -88,7 +88,7 @@ class Framing {
 };
 
 /// (persons, K) metres: each limb's median over the visible frames.
-std::vector<double> limb_lengths(const Figure& figure);
+std::vector<double> limb_lengths(const JointMotion& motion);
 
 /// Which side of the body a joint's name says it is on.
 enum class Side { middle, left, right };

@@ -30,14 +30,14 @@ struct Measures {
     }
 };
 
-std::vector<Stage> stages_of(const std::vector<Figure>& figures, const Layout& layout) {
-    if (figures.empty()) throw Error("there is no motion to draw");
+std::vector<Stage> stages_of(const std::vector<JointMotion>& motions, const Layout& layout) {
+    if (motions.empty()) throw Error("there is no motion to draw");
     if (layout.size < 40 || layout.size > 4000)
         throw Error("a size of {} pixels; give 40 to 4000", layout.size);
     if (layout.columns < 1 || layout.columns > 100) throw Error("{} columns; give 1 to 100", layout.columns);
     std::vector<Stage> stages;
-    stages.reserve(figures.size());
-    for (const auto& figure : figures) stages.emplace_back(figure, layout.view, layout.samples);
+    stages.reserve(motions.size());
+    for (const auto& motion : motions) stages.emplace_back(motion, layout.view, layout.samples);
     return stages;
 }
 
@@ -65,7 +65,7 @@ void draw_legend(cv::Mat& picture, const std::vector<Stage>& stages, cv::Point r
     std::size_t persons = 0;
     bool sides = false;
     for (const auto& stage : stages) {
-        persons = std::max<std::size_t>(persons, stage.figure().persons);
+        persons = std::max<std::size_t>(persons, stage.motion().persons);
         sides = sides || stage.has_sides();
     }
     if (!sides && persons < 2) return;
@@ -97,37 +97,37 @@ void draw_legend(cv::Mat& picture, const std::vector<Stage>& stages, cv::Point r
     }
 }
 
-std::size_t snapshot(const Figure& figure, int column, int columns) {
-    if (columns == 1) return figure.frames / 2;
-    return static_cast<std::size_t>(column) * (figure.frames - 1) / static_cast<std::size_t>(columns - 1);
+std::size_t snapshot(const JointMotion& motion, int column, int columns) {
+    if (columns == 1) return motion.frames / 2;
+    return static_cast<std::size_t>(column) * (motion.frames - 1) / static_cast<std::size_t>(columns - 1);
 }
 
-std::string length_of(const Figure& figure) {
-    return fmt::format("{} frames, {:.2f} s", figure.frames, figure.seconds());
+std::string length_of(const JointMotion& motion) {
+    return fmt::format("{} frames, {:.2f} s", motion.frames, motion.seconds());
 }
 
 void draw_row(cv::Mat& row, const Stage& stage, const Measures& m, int columns) {
-    const auto& figure = stage.figure();
+    const auto& motion = stage.motion();
     const int width = row.cols - 2 * m.margin, baseline = m.margin + m.title;
-    const auto length = length_of(figure);
+    const auto length = length_of(motion);
     const int length_width = text_width(length, m.small);
-    const auto title = fitted(figure.title, width - length_width - m.title, m.title, Weight::bold);
+    const auto title = fitted(motion.title, width - length_width - m.title, m.title, Weight::bold);
     draw_text(row, title, {m.margin, baseline}, m.title, style::ink, Weight::bold);
     const int after = m.margin + text_width(title, m.title, Weight::bold) + (title.empty() ? 0 : m.title);
     if (after + length_width <= m.margin + width)
         draw_text(row, length, {after, baseline}, m.small, style::quiet_ink);
 
     const int top = baseline + m.title / 2;
-    const int shown = std::min<int>(columns, static_cast<int>(std::min<std::uint32_t>(figure.frames, 100)));
+    const int shown = std::min<int>(columns, static_cast<int>(std::min<std::uint32_t>(motion.frames, 100)));
     cv::parallel_for_(cv::Range(0, shown), [&](const cv::Range& range) {
         for (int c = range.start; c < range.end; ++c) {
             cv::Mat cell = row(cv::Rect(m.margin + c * m.cell_width, top, m.cell_width, m.cell_height));
-            stage.draw(cell, snapshot(figure, c, shown));
+            stage.draw(cell, snapshot(motion, c, shown));
         }
     });
     for (int c = 0; c < shown; ++c) {
         const auto time =
-            fmt::format("{:.2f} s", static_cast<double>(snapshot(figure, c, shown)) / figure.fps);
+            fmt::format("{:.2f} s", static_cast<double>(snapshot(motion, c, shown)) / motion.fps);
         const int x = m.margin + c * m.cell_width + (m.cell_width - text_width(time, m.small)) / 2;
         draw_text(row, time, {x, top + m.cell_height + m.small + m.small / 3}, m.small, style::quiet_ink);
     }
@@ -142,25 +142,25 @@ void draw_title(cv::Mat& picture, const std::string& title, cv::Point at, int wi
     draw_text(picture, text, at, size, style::ink, Weight::bold);
 }
 
-/// A figure of an animation: title above, the motion, and below it the time and a line that fills as it
+/// A motion of an animation: title above, the motion, and below it the time and a line that fills as it
 /// passes.
 void draw_moving(cv::Mat& cell, const Stage& stage, const Measures& m, double seconds) {
-    const auto& figure = stage.figure();
+    const auto& motion = stage.motion();
     const auto frame = std::min<std::size_t>(
-        figure.frames - 1, static_cast<std::size_t>(std::max(0.0, seconds * figure.fps + 1e-6)));
+        motion.frames - 1, static_cast<std::size_t>(std::max(0.0, seconds * motion.fps + 1e-6)));
     const int pad = m.margin / 2, baseline = pad + m.title;
-    draw_title(cell, figure.title, {pad, baseline}, cell.cols - 2 * pad, m.title);
+    draw_title(cell, motion.title, {pad, baseline}, cell.cols - 2 * pad, m.title);
     const int top = baseline + m.title / 2;
     cv::Mat scene = cell(cv::Rect(0, top, m.cell_width, m.cell_height));
     stage.draw(scene, frame);
 
     const int line = top + m.cell_height + m.small / 2, thickness = std::max(2, m.cell_height / 160);
     const int right = cell.cols - pad - text_width("00.00 s", m.small) - m.small / 2;
-    const auto time = fmt::format("{:.2f} s", static_cast<double>(frame) / figure.fps);
+    const auto time = fmt::format("{:.2f} s", static_cast<double>(frame) / motion.fps);
     draw_text(cell, time, {cell.cols - pad - text_width(time, m.small), line + m.small / 2}, m.small,
               style::quiet_ink);
     if (right <= pad) return;
-    const double passed = figure.frames > 1 ? static_cast<double>(frame) / (figure.frames - 1) : 1;
+    const double passed = motion.frames > 1 ? static_cast<double>(frame) / (motion.frames - 1) : 1;
     const cv::Rect whole(pad, line, right - pad, thickness);
     cell(whole).setTo(style::scalar(style::rule));
     cell(cv::Rect(pad, line, static_cast<int>(whole.width * passed + 0.5), thickness))
@@ -169,11 +169,11 @@ void draw_moving(cv::Mat& cell, const Stage& stage, const Measures& m, double se
 
 }  // namespace
 
-cv::Mat contact_sheet(const std::vector<Figure>& figures, const Layout& layout) {
-    const auto stages = stages_of(figures, layout);
+cv::Mat contact_sheet(const std::vector<JointMotion>& motions, const Layout& layout) {
+    const auto stages = stages_of(motions, layout);
     const Measures m(stages, layout, 0.5, 1.6);
     std::uint32_t most_frames = 1;
-    for (const auto& figure : figures) most_frames = std::max(most_frames, figure.frames);
+    for (const auto& motion : motions) most_frames = std::max(most_frames, motion.frames);
     const int columns = std::min(layout.columns, static_cast<int>(std::min<std::uint32_t>(most_frames, 100)));
 
     const int row_height = m.margin + m.title + m.title / 2 + m.cell_height + 2 * m.small;
@@ -190,10 +190,10 @@ cv::Mat contact_sheet(const std::vector<Figure>& figures, const Layout& layout) 
     return sheet;
 }
 
-Film animation(const std::vector<Figure>& figures, const Layout& layout) {
-    const auto stages = std::make_shared<const std::vector<Stage>>(stages_of(figures, layout));
-    const Measures m(*stages, layout, 0.72, figures.size() == 1 ? 2.0 : 1.4);
-    const auto count = static_cast<int>(figures.size());
+Film animation(const std::vector<JointMotion>& motions, const Layout& layout) {
+    const auto stages = std::make_shared<const std::vector<Stage>>(stages_of(motions, layout));
+    const Measures m(*stages, layout, 0.72, motions.size() == 1 ? 2.0 : 1.4);
+    const auto count = static_cast<int>(motions.size());
     const int columns =
         layout.across > 0 ? std::min(layout.across, count) : static_cast<int>(std::ceil(std::sqrt(count)));
     const int rows = (count + columns - 1) / columns;
@@ -201,9 +201,9 @@ Film animation(const std::vector<Figure>& figures, const Layout& layout) {
               footer = m.small + m.margin;
 
     Film film;
-    film.fps = layout.fps > 0 ? layout.fps : figures[0].fps;
+    film.fps = layout.fps > 0 ? layout.fps : motions[0].fps;
     double seconds = 0;
-    for (const auto& figure : figures) seconds = std::max(seconds, figure.seconds());
+    for (const auto& motion : motions) seconds = std::max(seconds, motion.seconds());
     if (seconds * film.fps > 1e6)
         throw Error("the animation would have {:.0f} frames, more than a million; choose a lower --fps",
                     seconds * film.fps);

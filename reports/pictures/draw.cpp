@@ -13,14 +13,14 @@ namespace {
 // Shares of a body's reach (root to furthest tip, some 1.3 m in an adult).
 constexpr double thin = 0.013, thick = 0.036, head_size = 0.082;
 
-cv::Vec3d point(const Figure& figure, std::size_t frame, std::size_t person, std::size_t joint) {
-    const float* x = figure.at(frame, person, joint);
+cv::Vec3d point(const JointMotion& motion, std::size_t frame, std::size_t person, std::size_t joint) {
+    const float* x = motion.at(frame, person, joint);
     return {x[0], x[1], x[2]};
 }
 
-Figure body_of(const Figure& figure) {
-    check(figure);
-    return figure;
+JointMotion body_of(const JointMotion& motion) {
+    check(motion);
+    return motion;
 }
 
 /// The joint of the head that lies furthest from the root among those that are not mere end sites; -1 without
@@ -60,15 +60,15 @@ std::vector<Side> sides_of(const ingest::Topology& topology) {
 
 /// (persons, K): a joint is as thick as the limbs beyond it are long, so that hands and toes come out
 /// slender.
-std::vector<double> joint_radii(const Figure& figure, double reach) {
-    const auto k = figure.topology.joints();
-    const auto lengths = limb_lengths(figure);
-    const auto order = figure.topology.order();
-    std::vector<double> radii(figure.persons * k);
-    for (std::size_t p = 0; p < figure.persons; ++p) {
+std::vector<double> joint_radii(const JointMotion& motion, double reach) {
+    const auto k = motion.topology.joints();
+    const auto lengths = limb_lengths(motion);
+    const auto order = motion.topology.order();
+    std::vector<double> radii(motion.persons * k);
+    for (std::size_t p = 0; p < motion.persons; ++p) {
         std::vector<double> beyond(k, 0);
         for (auto j = order.rbegin(); j != order.rend(); ++j)
-            if (const int parent = figure.topology.parents[*j]; parent >= 0)
+            if (const int parent = motion.topology.parents[*j]; parent >= 0)
                 beyond[parent] = std::max(beyond[parent], beyond[*j] + lengths[p * k + *j]);
         for (std::size_t j = 0; j < k; ++j)
             radii[p * k + j] = reach * (thin + (thick - thin) * std::min(1.0, beyond[j] / (0.5 * reach)));
@@ -97,14 +97,14 @@ void tint(cv::Vec3b& pixel, const cv::Vec3f& colour, double strength) {
 
 }  // namespace
 
-Stage::Stage(const Figure& figure, const View& view, int samples)
-    : figure_(body_of(figure)),
-      framing_(figure_, view),
+Stage::Stage(const JointMotion& motion, const View& view, int samples)
+    : motion_(body_of(motion)),
+      framing_(motion_, view),
       samples_(samples),
-      sides_(sides_of(figure_.topology)),
-      head_(head_joint(figure_.topology)),
-      crown_(crown_joint(figure_.topology, head_)),
-      radius_(joint_radii(figure_, framing_.reach())) {
+      sides_(sides_of(motion_.topology)),
+      head_(head_joint(motion_.topology)),
+      crown_(crown_joint(motion_.topology, head_)),
+      radius_(joint_radii(motion_, framing_.reach())) {
     has_sides_ = std::ranges::count(sides_, Side::left) > 0 && std::ranges::count(sides_, Side::right) > 0;
 }
 
@@ -114,20 +114,20 @@ Camera Stage::camera(std::size_t frame, const cv::Size& cell) const {
 }
 
 std::vector<Cone> Stage::limbs(const Camera& camera, std::size_t frame) const {
-    const auto k = figure_.topology.joints();
+    const auto k = motion_.topology.joints();
     std::vector<Cone> cones;
-    for (std::size_t p = 0; p < figure_.persons; ++p) {
-        if (!figure_.visible(frame, p)) continue;
+    for (std::size_t p = 0; p < motion_.persons; ++p) {
+        if (!motion_.visible(frame, p)) continue;
         const auto& body = style::body(p);
         const auto radius = [&](std::size_t j) { return std::max(0.8, radius_[p * k + j] * camera.scale()); };
-        const auto at = [&](std::size_t j) { return camera.project(point(figure_, frame, p, j)); };
+        const auto at = [&](std::size_t j) { return camera.project(point(motion_, frame, p, j)); };
         const auto colour = [&](std::size_t j) {
             if (!has_sides_ || sides_[j] == Side::middle)
                 return style::vec(has_sides_ ? body.middle : body.left);
             return style::vec(sides_[j] == Side::left ? body.left : body.right);
         };
         for (std::size_t j = 1; j < k; ++j) {
-            const auto parent = static_cast<std::size_t>(figure_.topology.parents[j]);
+            const auto parent = static_cast<std::size_t>(motion_.topology.parents[j]);
             // A limb is no thicker where it leaves a thicker part (clavicle from the spine) than half its
             // parent's more.
             cones.push_back(
@@ -135,9 +135,9 @@ std::vector<Cone> Stage::limbs(const Camera& camera, std::size_t frame) const {
         }
         if (k == 1) cones.push_back({at(0), at(0), radius(0), radius(0), colour(0)});
         if (head_ >= 0) {
-            auto centre = point(figure_, frame, p, static_cast<std::size_t>(head_));
+            auto centre = point(motion_, frame, p, static_cast<std::size_t>(head_));
             if (crown_ >= 0)
-                centre = 0.5 * (centre + point(figure_, frame, p, static_cast<std::size_t>(crown_)));
+                centre = 0.5 * (centre + point(motion_, frame, p, static_cast<std::size_t>(crown_)));
             const auto seen = camera.project(centre);
             const double r = std::max(1.6, head_size * framing_.reach() * camera.scale());
             cones.push_back({seen, seen, r, r, colour(static_cast<std::size_t>(head_))});
@@ -195,7 +195,7 @@ void Stage::draw_floor(cv::Mat& cell, const Camera& eye) const {
 /// What the bodies keep from a light straight above, softer and weaker the higher they are. Drawn as a plan
 /// of the floor, then laid into the picture.
 void Stage::draw_shadow(cv::Mat& cell, const Camera& eye, std::size_t frame) const {
-    const auto k = figure_.topology.joints();
+    const auto k = motion_.topology.joints();
     const double reach = framing_.reach(), blur = 0.03 * reach,
                  per_metre = std::min(eye.scale() / 2, 60 / reach);
     struct Print {
@@ -209,10 +209,10 @@ void Stage::draw_shadow(cv::Mat& cell, const Camera& eye, std::size_t frame) con
         return cv::Point2d(per_metre * eye.right().dot(d), per_metre * away.dot(d));
     };
     const double limit = 4 * cell.cols / eye.scale() * per_metre;  // a joint that flew off casts no shadow
-    for (std::size_t p = 0; p < figure_.persons; ++p)
-        for (std::size_t j = 0; figure_.visible(frame, p) && j < k; ++j) {
-            const auto parent = static_cast<std::size_t>(std::max(0, figure_.topology.parents[j]));
-            const auto a = point(figure_, frame, p, parent), b = point(figure_, frame, p, j);
+    for (std::size_t p = 0; p < motion_.persons; ++p)
+        for (std::size_t j = 0; motion_.visible(frame, p) && j < k; ++j) {
+            const auto parent = static_cast<std::size_t>(std::max(0, motion_.topology.parents[j]));
+            const auto a = point(motion_, frame, p, parent), b = point(motion_, frame, p, j);
             const double height = std::max(0.0, 0.5 * (a[1] + b[1]) - framing_.floor());
             const Print print{plan(a), plan(b), 1.3 * radius_[p * k + j] * per_metre,
                               std::exp(-height / (0.45 * reach))};

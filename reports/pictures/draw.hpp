@@ -1,22 +1,22 @@
-// One figure in one cell of a picture: floor, shadow and bodies.
+// One motion in one cell of a picture: floor, shadow and bodies.
 #pragma once
 
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "reports/figures/figure.hpp"
+#include "reports/motions/joint_motion.hpp"
 #include "reports/pictures/camera.hpp"
 #include "reports/pictures/solid.hpp"
 
 namespace actformer::reports {
 
-/// Draws the frames of one figure. Drawing is safe from many threads at once.
+/// Draws the frames of one motion. Drawing is safe from many threads at once.
 class Stage {
   public:
-    /// Throws Error as check(figure) does. `samples` x `samples` decide each pixel of a body.
-    Stage(const Figure& figure, const View& view, int samples = 3);
+    /// Throws Error as check(motion) does. `samples` x `samples` decide each pixel of a body.
+    Stage(const JointMotion& motion, const View& view, int samples = 3);
 
-    const Figure& figure() const { return figure_; }
+    const JointMotion& motion() const { return motion_; }
     const Framing& framing() const { return framing_; }
     bool has_sides() const { return has_sides_; }  ///< left and right are known
 
@@ -32,7 +32,7 @@ class Stage {
     void draw_floor(cv::Mat& cell, const Camera& camera) const;
     void draw_shadow(cv::Mat& cell, const Camera& camera, std::size_t frame) const;
 
-    Figure figure_;
+    JointMotion motion_;
     Framing framing_;
     int samples_;
     bool has_sides_ = false;

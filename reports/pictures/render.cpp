@@ -35,17 +35,17 @@ void write_png(const std::filesystem::path& path, const cv::Mat& picture) {
     file.commit();
 }
 
-void render(const std::vector<Figure>& figures, const Layout& layout, const std::filesystem::path& path,
+void render(const std::vector<JointMotion>& motions, const Layout& layout, const std::filesystem::path& path,
             const Watcher& watch) {
     switch (picture_kind(path)) {
         case PictureKind::png:
-            write_png(path, contact_sheet(figures, layout));
+            write_png(path, contact_sheet(motions, layout));
             break;
         case PictureKind::gif:
-            write_gif(path, animation(figures, layout), watch);
+            write_gif(path, animation(motions, layout), watch);
             break;
         case PictureKind::mp4:
-            write_mp4(path, animation(figures, layout), watch);
+            write_mp4(path, animation(motions, layout), watch);
             break;
     }
 }

@@ -14,9 +14,9 @@ enum class PictureKind { png, gif, mp4 };
 /// Throws Error listing the three where `path` has another extension.
 PictureKind picture_kind(const std::filesystem::path& path);
 
-/// Draws `figures` and writes them to `path`, whole or not at all. Throws Error naming the figure or file at
+/// Draws `motions` and writes them to `path`, whole or not at all. Throws Error naming the motion or file at
 /// fault.
-void render(const std::vector<Figure>& figures, const Layout& layout, const std::filesystem::path& path,
+void render(const std::vector<JointMotion>& motions, const Layout& layout, const std::filesystem::path& path,
             const Watcher& watch = {});
 
 /// Writes `picture` (8UC3) as PNG. Throws Error naming `path` where it cannot be written; then no file is

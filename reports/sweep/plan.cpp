@@ -14,7 +14,6 @@ namespace actformer::reports {
 namespace {
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 
 constexpr std::size_t fingerprint_digits = 12;
 
@@ -49,7 +48,8 @@ double training_pace(const std::string& kind, const Settings& set, const fs::pat
 /// Builds the jobs one after another; the same work asked for again is the same job.
 class Planner {
   public:
-    Planner(const Sweep& sweep, fs::path beside) : sweep_(sweep), beside_(std::move(beside)) {}
+    Planner(const Sweep& sweep, fs::path beside, const JobRunner& runner)
+        : sweep_(sweep), beside_(std::move(beside)), runner_(runner) {}
 
     Plan plan() {
         for (const auto& row : sweep_.rows) plan_row(row);
@@ -75,7 +75,7 @@ class Planner {
     Made at_hand(const std::string& path, const char* what, Job job) {
         const auto at = found(path, job);
         if (job.problem.empty()) return {{}, at};
-        job.commands = {{what, at}};
+        job.work = MissingWork{what, at};
         return {add(std::move(job)), at};
     }
 
@@ -90,8 +90,7 @@ class Planner {
         Checksum sum;
         sum.add(fmt::format("{}|{}|{}", job.kind, ACTFORMER_VERSION, contents_));
         contents_.clear();
-        for (const auto& command : job.commands)
-            for (const auto& word : command) sum.add("|" + word);
+        for (const auto& word : runner_.identity(job.work)) sum.add("|" + word);
         job.id = job.kind + "-" + sum.hex().substr(0, fingerprint_digits);
         for (std::size_t i = 0; i < plan_.jobs.size(); ++i)
             if (plan_.jobs[i].id == job.id) return i;
@@ -99,7 +98,11 @@ class Planner {
         return plan_.jobs.size() - 1;
     }
 
-    std::string folder_of(std::size_t job) const { return "{out}/jobs/" + plan_.jobs[job].id; }
+    /// Where others find what a job makes: the job's own path as one within the sweep.
+    std::string made_by(std::size_t job, std::string path) const {
+        replace_all(path, "{job}", "{out}/jobs/" + plan_.jobs[job].id);
+        return path;
+    }
 
     void need(Job& job, const Made& made) {
         if (!made.job) return;
@@ -117,30 +120,20 @@ class Planner {
             if (!made.job) made.clips = clips_in(made.path);
             return made;
         }
-        Words ingest{"{program}", "ingest", d.format};
+        IngestWork work;
+        work.format = d.format;
+        work.clips = d.clips;
+        work.seed = d.seed;
+        work.actions = d.actions;
+        work.arguments = d.arguments;
+        for (const auto& raw : d.raw) work.raw.push_back(found(raw, job));
         if (d.clips > 0) {
-            Words synth{"{program}",
-                        "synth",
-                        "ntu",
-                        "-o",
-                        "{job}/raw",
-                        "--clips",
-                        std::to_string(d.clips),
-                        "--seed",
-                        std::to_string(d.seed)};
-            if (!d.actions.empty()) synth.insert(synth.end(), {"--actions", d.actions});
-            job.commands.push_back(synth);
-            ingest.emplace_back("{job}/raw");
-            job.work = static_cast<double>(d.clips);
+            job.amount = static_cast<double>(d.clips);
             job.pace = 300;  // written as text first
         }
-        for (const auto& raw : d.raw) ingest.push_back(found(raw, job));
-        ingest.insert(ingest.end(), {"-o", "{job}/data"});
-        ingest.insert(ingest.end(), d.arguments.begin(), d.arguments.end());
-        job.commands.push_back(ingest);
+        job.work = work;
         const auto at = add(std::move(job));
-        return {at, folder_of(at) + "/data" + (d.use.empty() ? "" : "/" + d.use),
-                static_cast<double>(d.clips)};
+        return {at, made_by(at, work.out) + (d.use.empty() ? "" : "/" + d.use), static_cast<double>(d.clips)};
     }
 
     /// 0 where it cannot be read: whoever uses it will say why.
@@ -152,12 +145,14 @@ class Planner {
         }
     }
 
-    void add_training_words(Job& job, const std::string& config, const Settings& set, const Made& data) {
-        auto& words = job.commands[0];
-        words.insert(words.end(), {"-c", with_contents(config, job), "--data", data.path, "-o", "{job}/run"});
-        for (const auto& [key, value] : set) words.push_back(key + "=" + value);
-        job.work = number_in(set, words[4], "epochs", 0) * data.clips / 2;  // a protocol trains on about half
-        job.pace = training_pace(job.kind, set, words[4]);
+    std::size_t train(Job job, const std::string& config, const Settings& set, const Made& data) {
+        need(job, data);
+        TrainingWork work{job.kind, with_contents(config, job), data.path, set};
+        job.amount =
+            number_in(set, work.config, "epochs", 0) * data.clips / 2;  // a protocol trains on about half
+        job.pace = training_pace(job.kind, set, work.config);
+        job.work = std::move(work);
+        return add(std::move(job));
     }
 
     Made recogniser(const std::string& name) {
@@ -166,24 +161,23 @@ class Planner {
         job.kind = "recogniser";
         job.title = "recogniser " + name;
         if (!r.weights.empty()) return at_hand(r.weights, "weights", std::move(job));
-        const auto data = dataset(r.data);
-        need(job, data);
-        job.commands = {{"{program}", "train", "recogniser"}};
-        add_training_words(job, r.config, r.set, data);
-        const auto at = add(std::move(job));
-        return {at, folder_of(at) + "/run"};
+        const auto at = train(std::move(job), r.config, r.set, dataset(r.data));
+        return {at, made_by(at, TrainingWork().out)};
     }
 
     std::size_t generator(const SweepRow& row, std::uint64_t seed, const Made& data) {
         Job job;
         job.kind = "generator";
         job.title = fmt::format("{}, seed {}: generator", row.name, seed);
-        need(job, data);
-        job.commands = {{"{program}", "train", "generator"}};
         auto set = row.set;
         set["seed"] = std::to_string(seed);
-        add_training_words(job, row.config, set, data);
-        return add(std::move(job));
+        return train(std::move(job), row.config, set, data);
+    }
+
+    /// The libtorch device that a row trains on, where it says one.
+    static std::string device_of(const SweepRow& row) {
+        const auto device = row.set.find("device");
+        return device == row.set.end() ? "" : device->second;
     }
 
     /// A few motions to look at.
@@ -192,81 +186,79 @@ class Planner {
         job.kind = "generate";
         job.title = fmt::format("{}, seed {}: motions to look at", row.name, seed);
         job.needs = {generator};
-        job.commands = {{"{program}", "generate", "--generator", folder_of(generator) + "/run", "-o",
-                         "{job}/motions.h5", "--per-class", "4", "--seed", "0"}};
-        if (const auto device = row.set.find("device"); device != row.set.end())
-            job.commands[0].insert(job.commands[0].end(), {"--device", device->second});
-        job.work = 1;
+        GenerationWork work;
+        work.generator = made_by(generator, TrainingWork().out);
+        work.device = device_of(row);
+        job.work = std::move(work);
+        job.amount = 1;
         job.pace = 0.5;
         return add(std::move(job));
     }
 
     void plan_row(const SweepRow& row) {
         PlannedRow planned{&row, {}};
-        const auto data = dataset(row.data), eyes = recogniser(row.recogniser);
+        const auto data = dataset(row.data), recogniser_made = recogniser(row.recogniser);
         const auto single = row.single_recogniser.empty() ? Made{} : recogniser(row.single_recogniser);
         const auto seeds = row.motions.empty() ? row.seeds : std::vector<std::uint64_t>{0};
-        for (const auto seed : seeds) {
-            PlannedRun run;
-            run.seed = seed;
-            Job job;
-            job.kind = "score";
-            job.title = fmt::format("{}, seed {}: scores", row.name, seed);
-            for (const auto& made : {data, eyes, single}) need(job, made);
-            Words words{"{program}", "score",   "--recogniser", eyes.path,  "--real",
-                        data.path,   "--split", row.split,      "--window", std::to_string(row.window)};
-            if (!single.path.empty()) words.insert(words.end(), {"--single-recogniser", single.path});
-            if (!row.device.empty()) words.insert(words.end(), {"--device", row.device});
-            if (row.motions.empty()) {
-                run.generator = generator(row, seed, data);
-                run.generate = generate(row, seed, *run.generator);
-                run.run = folder_of(*run.generator) + "/run";
-                run.motions = folder_of(*run.generate) + "/motions.h5";
-                job.needs.push_back(*run.generator);
-                words.insert(words.end(), {"--generator", run.run, "--repeats", std::to_string(row.repeats),
-                                           "--per-class", std::to_string(row.per_class)});
-                if (const auto device = row.set.find("device"); device != row.set.end())
-                    words.insert(words.end(), {"--generate-on", device->second});
-            } else {
-                words.emplace_back("--generated");
-                for (const auto& motions : row.motions) words.push_back(with_contents(motions, job));
-                run.motions = words.back();
-            }
-            words.insert(words.end(), {"-o", "{job}/scores.json", "--keep-features", "{job}/features"});
-            job.commands = {words};
-            job.work = static_cast<double>(row.repeats * row.per_class);
-            job.pace = 10;  // of each of some tens of classes
-            run.score = add(std::move(job));
-            run.scores = folder_of(run.score) + "/scores.json";
-            run.features = folder_of(run.score) + "/features";
-            run.recogniser = eyes.path;
-            run.dataset = data.path;
-            planned.runs.push_back(std::move(run));
-        }
+        for (const auto seed : seeds)
+            planned.runs.push_back(planned_run(row, seed, data, recogniser_made, single));
         plan_.rows.push_back(std::move(planned));
+    }
+
+    PlannedRun planned_run(const SweepRow& row, std::uint64_t seed, const Made& data, const Made& recogniser,
+                           const Made& single) {
+        PlannedRun run;
+        run.seed = seed;
+        Job job;
+        job.kind = "score";
+        job.title = fmt::format("{}, seed {}: scores", row.name, seed);
+        for (const auto& made : {data, recogniser, single}) need(job, made);
+        ScoringWork work;
+        work.recogniser = run.recogniser = recogniser.path;
+        work.single_recogniser = single.path;
+        work.data = run.dataset = data.path;
+        work.split = row.split;
+        work.device = row.device;
+        work.window = row.window;
+        work.repeats = row.repeats;
+        work.per_class = row.per_class;
+        if (row.motions.empty()) {
+            run.generator = generator(row, seed, data);
+            run.generate = generate(row, seed, *run.generator);
+            run.run = work.generator = made_by(*run.generator, TrainingWork().out);
+            run.motions = made_by(*run.generate, GenerationWork().out);
+            job.needs.push_back(*run.generator);
+            work.generate_on = device_of(row);
+        } else {
+            for (const auto& motions : row.motions) work.motions.push_back(with_contents(motions, job));
+            run.motions = work.motions.back();
+        }
+        job.amount = static_cast<double>(row.repeats * row.per_class);
+        job.pace = 10;  // of each of some tens of classes
+        job.work = work;
+        run.score = add(std::move(job));
+        run.scores = made_by(run.score, work.out);
+        run.features = made_by(run.score, work.features);
+        return run;
     }
 
     const Sweep& sweep_;
     fs::path beside_;
+    const JobRunner& runner_;
     std::string contents_;
     Plan plan_;
 };
 
 }  // namespace
 
-Plan make_plan(const Sweep& sweep, const fs::path& beside) {
-    return Planner(sweep, beside).plan();
+Plan make_plan(const Sweep& sweep, const fs::path& beside, const JobRunner& runner) {
+    return Planner(sweep, beside, runner).plan();
 }
 
-std::vector<std::string> filled_in(const std::vector<std::string>& words, const std::string& program,
-                                   const fs::path& out, const Job& job) {
-    auto filled = words;
-    for (auto& word : filled) {
-        replace_all(word, "{job}", "{out}/jobs/" + job.id);
-        replace_all(word, "{out}", out.string());
-        replace_all(word, "{program}", program);
-    }
-    return filled;
+std::string filled_in(std::string path, const fs::path& out, const Job& job) {
+    replace_all(path, "{job}", "{out}/jobs/" + job.id);
+    replace_all(path, "{out}", out.string());
+    return path;
 }
 
 }  // namespace actformer::reports

@@ -6,7 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
-#include "reports/sweep/reading.hpp"
+#include "base/text/loose_json.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -27,13 +27,13 @@ JobStatus status_of(const fs::path& folder) {
     JobStatus out;
     if (fs::exists(folder / "done.json")) {
         out.state = JobState::done;
-        const auto json = read_json(folder / "done.json");
-        if (const auto& seconds = member(json, "seconds"); seconds.is_number()) out.seconds = seconds;
+        const auto json = loose::read(folder / "done.json");
+        if (const auto& seconds = loose::member(json, "seconds"); seconds.is_number()) out.seconds = seconds;
     } else if (is_locked(folder / "lock")) {
         out.state = JobState::running;
     } else if (fs::exists(folder / "failed.json")) {
         out.state = JobState::failed;
-        const auto why = text(read_json(folder / "failed.json"), "why");
+        const auto why = loose::text(loose::read(folder / "failed.json"), "why");
         out.why = why.empty() ? "?" : why;
     }
     return out;
@@ -139,13 +139,13 @@ std::optional<double> estimate(const Plan& plan, const std::vector<JobStatus>& s
     for (std::size_t i = 0; i < plan.jobs.size(); ++i)
         if (plan.jobs[i].kind == asked.kind && status[i].seconds) {
             seconds += *status[i].seconds;
-            work += plan.jobs[i].work;
+            work += plan.jobs[i].amount;
             ++jobs;
         }
-    if (jobs > 0 && work > 0 && asked.work > 0) return seconds / work * asked.work;
+    if (jobs > 0 && work > 0 && asked.amount > 0) return seconds / work * asked.amount;
     if (jobs > 0) return seconds / static_cast<double>(jobs);
-    if (asked.work > 0 && asked.pace > 0)
-        return 2 + asked.work / asked.pace;  // a program starts and ends, too
+    if (asked.amount > 0 && asked.pace > 0)
+        return 2 + asked.amount / asked.pace;  // a program starts and ends, too
     return {};
 }
 

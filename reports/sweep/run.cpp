@@ -9,7 +9,6 @@
 #include "base/error.hpp"
 #include "base/files/cache.hpp"
 #include "base/files/file.hpp"
-#include "base/process/process.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -36,19 +35,6 @@ void make_folder(const fs::path& out) {
     if (error) throw Error("{}: cannot be made: {}", out.string(), error.message());
 }
 
-/// The job's commands one after another; empty, or why one failed.
-std::string run_commands(const Job& job, const SweepOptions& options, const fs::path& folder) {
-    for (const auto& words : job.commands) {
-        const auto command = filled_in(words, options.program, options.out, job);
-        const auto result = run_process(command, folder / "log.txt");
-        if (result.exit != 0)
-            return result.last_line.empty()
-                       ? fmt::format("{}: exit code {}", command_line(command), result.exit)
-                       : result.last_line;
-    }
-    return {};
-}
-
 /// Runs a job, unless somebody else has done it; empty, or why it failed.
 std::string work_on(const Job& job, const SweepOptions& options) {
     const auto folder = folder_of(options.out, job);
@@ -56,12 +42,10 @@ std::string work_on(const Job& job, const SweepOptions& options) {
     const FileLock lock(folder / "lock");
     if (fs::exists(folder / "done.json")) return {};  // by whom we waited for
     fs::remove(folder / "failed.json");
-    Json said{{"kind", job.kind}, {"title", job.title}, {"commands", Json::array()}};
-    for (const auto& words : job.commands)
-        said["commands"].push_back(command_line(filled_in(words, options.program, options.out, job)));
-    write_json(folder / "job.json", said);
+    const auto commands = options.runner.command_lines(job);
+    write_json(folder / "job.json", {{"kind", job.kind}, {"title", job.title}, {"commands", commands}});
     const auto start = std::chrono::steady_clock::now();
-    const auto why = run_commands(job, options, folder);
+    const auto why = options.runner.run(job, folder / "log.txt");
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (why.empty())
         write_json(folder / "done.json", {{"seconds", seconds}, {"finished", now()}});
@@ -71,17 +55,17 @@ std::string work_on(const Job& job, const SweepOptions& options) {
 }
 
 /// The job's status once we have worked on it. Its folder alone would not tell of a failure while others hold the lock: those who
-/// try the job again, or a process just forked by another hand.
+/// try the job again, or a process just forked by another worker.
 JobStatus worked_on(const Plan& plan, std::size_t i, const SweepOptions& options) {
     auto why = work_on(plan.jobs[i], options);
     if (!why.empty()) return {JobState::failed, std::move(why), {}};
     return statuses(plan, options.out)[i];
 }
 
-/// What is to be done, shared by the hands that do it.
-class Board {
+/// The jobs of a plan and how far they are, shared by the workers that do them.
+class Schedule {
   public:
-    Board(const Sweep& sweep, const Plan& plan, const SweepOptions& options, const SweepEvents& events)
+    Schedule(const Sweep& sweep, const Plan& plan, const SweepOptions& options, const SweepEvents& events)
         : sweep_(sweep), plan_(plan), options_(options), events_(events), taken_(plan.jobs.size(), false) {
         status_ = statuses(plan, options.out);
         for (std::size_t i = 0; i < status_.size(); ++i) {
@@ -93,8 +77,8 @@ class Board {
             if (status_[i].state == JobState::failed) fail_those_that_need(i);
     }
 
-    /// Takes jobs until none is left for it.
-    void hand() {
+    /// A worker: does jobs until none is left for it.
+    void work() {
         for (;;) {
             std::unique_lock lock(mutex_);
             std::optional<std::size_t> job;
@@ -168,14 +152,14 @@ std::vector<JobStatus> run_plan(const Sweep& sweep, const Plan& plan, const Swee
                                 const SweepEvents& events) {
     make_folder(options.out);
     write_results(sweep, plan, options.out);
-    Board board(sweep, plan, options, events);
+    Schedule schedule(sweep, plan, options, events);
     {
         std::vector<std::jthread> others;
-        for (unsigned i = 1; i < options.jobs; ++i) others.emplace_back([&] { board.hand(); });
-        board.hand();
+        for (unsigned i = 1; i < options.jobs; ++i) others.emplace_back([&] { schedule.work(); });
+        schedule.work();
     }
     write_results(sweep, plan, options.out);
-    return board.status();
+    return schedule.status();
 }
 
 JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, const SweepOptions& options) {

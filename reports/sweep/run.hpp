@@ -10,8 +10,8 @@ namespace actformer::reports {
 
 struct SweepOptions {
     std::filesystem::path out;
-    std::string program;  ///< actformer
-    unsigned jobs = 1;    ///< at once
+    const JobRunner& runner;
+    unsigned jobs = 1;  ///< at once
 };
 
 struct SweepEvents {
@@ -19,7 +19,7 @@ struct SweepEvents {
     std::function<void(const Job& job, const JobStatus& status)> ends;
 };
 
-/// Runs what is not done; a job whose needs are done begins as soon as one of `jobs` hands is free. A failed job stops those that
+/// Runs what is not done; a job whose needs are done begins as soon as one of `jobs` workers is free. A failed job stops those that
 /// need it and no others, and is tried again by the next call. Several processes may work in one folder: each job is done by
 /// one of them, and the others wait for it. results.json is written before the first job and after each. Returns the
 /// statuses. Throws Error where the folder cannot be written.
@@ -29,11 +29,11 @@ std::vector<JobStatus> run_plan(const Sweep& sweep, const Plan& plan, const Swee
 /// Runs one job, whose needs must be done. For Slurm's jobs. Throws Error for an id that the plan has not.
 JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, const SweepOptions& options);
 
-/// Submits what is not done through sbatch, each job after those it needs; a job is `again` with --only and its id, run where it
-/// lands. Keeps Slurm's numbers in OUT/slurm.json, and leaves alone what is queued there already. Returns how many were
+/// Submits what is not done through sbatch, each job after those it needs; `command` gives the words that do a job where it lands. Keeps Slurm's numbers in OUT/slurm.json, and leaves alone what is queued there already. Returns how many were
 /// submitted. Throws Error where sbatch or squeue cannot be run or refuses.
 std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
-                        const std::vector<std::string>& again, const std::vector<std::string>& sbatch_words);
+                        const std::function<std::vector<std::string>(const Job&)>& command,
+                        const std::vector<std::string>& sbatch_words);
 
 /// Ids of the jobs submitted from OUT that wait or run in Slurm; none where nothing was submitted or squeue does not answer.
 std::optional<std::set<std::string>> jobs_in_slurm(const std::filesystem::path& out);

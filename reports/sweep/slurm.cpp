@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/process/process.hpp"
-#include "reports/sweep/reading.hpp"
+#include "base/text/loose_json.hpp"
 #include "reports/sweep/run.hpp"
 
 namespace actformer::reports {
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 Json submitted_before(const fs::path& out) {
-    auto json = read_json(out / "slurm.json");
+    auto json = loose::read(out / "slurm.json");
     return json.is_object() ? json : Json::object();
 }
 
@@ -59,17 +59,16 @@ std::string number_in(const std::string& line) {
 
 /// Gives the job to sbatch; its number there.
 std::string submit(const Job& job, const std::string& after, const SweepOptions& options,
-                   std::vector<std::string> again, const std::vector<std::string>& sbatch_words) {
+                   const std::vector<std::string>& command, const std::vector<std::string>& sbatch_words) {
     const auto folder = folder_of(options.out, job);
     const auto log = options.out / "slurm.log";
     fs::create_directories(folder);
-    again.insert(again.end(), {"--only", job.id});
     std::vector<std::string> words{"sbatch", "--parsable", "--job-name",
                                    job.id,   "--output",   (folder / "slurm.txt").string()};
     if (!after.empty())
         words.insert(words.end(), {"--dependency", "afterok" + after, "--kill-on-invalid-dep=yes"});
     words.insert(words.end(), sbatch_words.begin(), sbatch_words.end());
-    words.insert(words.end(), {"--wrap", command_line(again)});
+    words.insert(words.end(), {"--wrap", command_line(command)});
     const auto said = run_process(words, log);
     const auto number = number_in(said.last_line);
     if (said.exit != 0 || number.empty())
@@ -92,7 +91,8 @@ std::optional<std::set<std::string>> jobs_in_slurm(const fs::path& out) {
 }
 
 std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
-                        const std::vector<std::string>& again, const std::vector<std::string>& sbatch_words) {
+                        const std::function<std::vector<std::string>(const Job&)>& command,
+                        const std::vector<std::string>& sbatch_words) {
     fs::create_directories(options.out / "jobs");
     write_results(sweep, plan, options.out);
     auto numbers = submitted_before(options.out);
@@ -123,7 +123,7 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
         if (!possible) continue;  // it needs what has a problem
         if (numbers.contains(job.id) && numbers[job.id].is_string()) live[i] = numbers[job.id];
         if (!live[i].empty() && queued.contains(live[i]) && !stale) continue;
-        live[i] = submit(job, after, options, again, sbatch_words);
+        live[i] = submit(job, after, options, command(job), sbatch_words);
         fresh[i] = true;
         numbers[job.id] = live[i];
         write_whole(options.out / "slurm.json", numbers.dump(2) + "\n");

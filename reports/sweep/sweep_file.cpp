@@ -1,37 +1,17 @@
 #include "reports/sweep/sweep_file.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <set>
 
-#include "base/error.hpp"
+#include "ingest/formats/formats.hpp"
 #include "reports/tables/paper_tables.hpp"
+#include "reports/tables/yaml_place.hpp"
 
 namespace actformer::reports {
 namespace {
 
 using Node = YAML::Node;
-
-/// Where a node stands, for messages.
-struct Place {
-    std::string file;
-
-    [[noreturn]] void fail(const Node& node, const std::string& what) const {
-        throw Error("{}: line {}: {}", file, node.Mark().line + 1, what);
-    }
-    void expect_map(const Node& node, const std::string& what) const {
-        if (!node.IsMap()) fail(node, what + " must be a map of keys and values");
-    }
-    template <typename T>
-    T as(const Node& node, const std::string& key, const char* kind) const {
-        try {
-            return node.as<T>();
-        } catch (const YAML::Exception&) {
-            fail(node, fmt::format("'{}' must be {}", key, kind));
-        }
-    }
-};
+using Place = YamlPlace;
 
 /// An entry's keys with those of what it is like, each with the node that says it.
 using Entry = std::map<std::string, Node>;
@@ -139,6 +119,15 @@ class Taker {
     Entry entry_;
 };
 
+void check_format(const Place& place, const Node& where, const std::string& dataset,
+                  const std::string& format) {
+    std::vector<std::string_view> known;
+    for (const auto& one : ingest::formats()) known.push_back(one.name);
+    if (std::ranges::find(known, format) == known.end())
+        place.fail(where, fmt::format("dataset '{}': there is no format '{}'; there are {}", dataset, format,
+                                      fmt::join(known, ", ")));
+}
+
 SweepDataset dataset(const Place& place, const Node& where, const std::string& name, Entry entry) {
     Taker take(place, std::move(entry));
     SweepDataset out;
@@ -153,8 +142,7 @@ SweepDataset dataset(const Place& place, const Node& where, const std::string& n
     take.end("a dataset", "path, format, raw, arguments, clips, seed, actions, use, like");
     if (!out.path.empty() + !out.raw.empty() + (out.clips > 0) != 1)
         place.fail(where, fmt::format("dataset '{}' must say one of path, raw and clips", name));
-    if (out.format != "ntu" && out.format != "bvh")
-        place.fail(where, fmt::format("dataset '{}': format is ntu or bvh, not '{}'", name, out.format));
+    check_format(place, where, name, out.format);
     return out;
 }
 

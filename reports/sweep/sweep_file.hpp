@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-namespace actformer::reports {
+#include "reports/sweep/job.hpp"
 
-using Settings = std::map<std::string, std::string>;  ///< key=value words for a training
+namespace actformer::reports {
 
 /// Ready (`path`), ingested from raw files (`raw`), or ingested from synthetic ones (`clips`).
 struct SweepDataset {
     std::string path;
-    std::string format = "ntu";  ///< of raw: ntu or bvh
+    std::string format = "ntu";  ///< of raw or synthetic clips, as `actformer ingest` lists them
     std::vector<std::string> raw;
     std::vector<std::string> arguments;  ///< more words for `actformer ingest`
     std::uint64_t clips = 0, seed = 1;   ///< synthetic
@@ -53,8 +53,8 @@ struct Sweep {
 ///   datasets:
 ///     one: {clips: 600, actions: "1-8", use: ntu-1p}
 ///   recognisers:
-///     eyes: {data: one, config: model/configs/recogniser-small.yaml, set: {epochs: 4}}
-///   base: {data: one, recogniser: eyes, config: model/configs/actformer-small.yaml, repeats: 3}
+///     ntu-1p: {data: one, config: model/configs/recogniser-small.yaml, set: {epochs: 4}}
+///   base: {data: one, recogniser: ntu-1p, config: model/configs/actformer-small.yaml, repeats: 3}
 ///   rows:
 ///     full: {fills: [table1/ActFormer/NTU-1P, table3/full/NTU-1P]}
 ///     gaussian: {like: full, set: {prior: gaussian}, fills: [table3/Gaussian prior/NTU-1P]}

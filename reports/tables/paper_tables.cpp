@@ -1,109 +1,245 @@
 #include "reports/tables/paper_tables.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <filesystem>
 
-#include "base/error.hpp"
+#include "reports/tables/table_file.hpp"
+#include "reports/tables/yaml_place.hpp"
 
 namespace actformer::reports {
 namespace {
 
-const std::vector<std::string> three{"accuracy", "fid_mean", "fid_whole"};
-const std::vector<std::string> five{"accuracy", "fid_mean", "fid_whole", "fida_mean", "fida_whole"};
-const std::vector<std::string> group{"fida_whole"};  // GTA Combat's one figure a group size
+using Node = YAML::Node;
 
-std::vector<PaperColumns> with_groups() {
-    return {{"NTU-2P", five}, {"GTA-2P", group}, {"GTA-3P", group}, {"GTA-4P", group}, {"GTA-5P", group}};
-}
+/// Turns the text of one file into a table.
+class TableReader {
+  public:
+    TableReader(std::string_view yaml, const std::string& file) : place_{file} {
+        table_.id = std::filesystem::path(file).stem().string();
+        try {
+            root_ = YAML::Load(std::string(yaml));
+        } catch (const YAML::Exception& e) {
+            throw Error("{}: line {}: {}", file, e.mark.line + 1, e.msg);
+        }
+    }
 
-PaperTable single_person() {
-    return {
-        "table1",
-        "Single person",
-        {{"NTU-13", three}, {"NTURecon-1P", three}, {"NTU-1P", three}, {"BABEL", three}},
-        {{"Action2Motion",
-          {{94.9, 4.40, 2.01}, {41.97, 23.86, 18.35}, {8.34, 56.13, 46.13}, {6.04, 17.03, 6.05}}},
-         {"CSGN", {{85.9, 8.07, 3.64}, {20.02, 36.02, 27.51}, {38.99, 17.01, 7.14}, {7.02, 20.11, 9.17}}},
-         {"ACTOR", {{97.1, 5.35, 1.18}, {39.69, 37.87, 19.58}, {35.56, 32.89, 9.63}, {3.44, 55.66, 36.27}}},
-         {"ActFormer",
-          {{99.9, 4.28, 1.11}, {49.12, 20.35, 8.86}, {42.01, 12.53, 3.57}, {13.49, 11.21, 2.55}}}}};
-}
+    PaperTable read() {
+        place_.expect_map(root_, "a table");
+        check_keys(root_, {"title", "caption", "source", "order", "metrics", "columns", "real", "rows"});
+        table_.title = text("title");
+        table_.caption = text("caption");
+        table_.source = text("source");
+        table_.order = place_.as<int>(needed("order"), "order", "a whole number");
+        read_columns();
+        read_rows();
+        if (const auto real = root_["real"]) table_.real = row_called(real);
+        return std::move(table_);
+    }
 
-PaperTable several_persons() {
-    return {"table2",
-            "Several persons",
-            with_groups(),
-            {{"Action2Motion", {{16.85, 15.07, 10.12, 26.25, 20.31}, {}, {}, {}, {}}},
-             {"CSGN", {{55.12, 6.10, 3.88, 8.96, 3.20}, {1.15}, {1.73}, {2.09}, {4.02}}},
-             {"ACTOR", {{63.04, 13.56, 6.72, 19.14, 8.16}, {}, {}, {}, {}}},
-             {"ActFormer", {{69.65, 3.77, 3.27, 7.12, 2.46}, {1.04}, {1.13}, {1.58}, {2.23}}}}};
-}
+  private:
+    void check_keys(const Node& map, const std::vector<std::string>& known) const {
+        std::vector<std::string> seen;
+        for (const auto& item : map) {
+            const auto key = item.first.Scalar();
+            if (std::ranges::find(known, key) == known.end())
+                place_.fail(item.first,
+                            fmt::format("there is no key '{}'; there are {}", key, fmt::join(known, ", ")));
+            check_new(item.first, key, seen);
+        }
+    }
+    void check_new(const Node& where, const std::string& name, std::vector<std::string>& seen) const {
+        if (std::ranges::find(seen, name) != seen.end())
+            place_.fail(where, fmt::format("'{}' comes twice", name));
+        seen.push_back(name);
+    }
+    /// As a part of a cell's name.
+    void check_name(const Node& where, const std::string& name, std::vector<std::string>& seen) const {
+        if (name.empty() || name.find('/') != std::string::npos)
+            place_.fail(where, fmt::format("'{}': a name must not be empty nor hold a /", name));
+        check_new(where, name, seen);
+    }
 
-PaperTable generator_parts() {
-    return {"table3",
-            "Parts of the generator, single person",
-            {{"NTU-1P", three}},
-            {{"Gaussian prior", {{37.55, 17.25, 6.01}}},
-             {"graph convolutions in the generator", {{32.97, 18.68, 6.09}}},
-             {"fixed PE", {{37.57, 18.38, 5.55}}},
-             {"full", {{42.01, 12.53, 3.57}}}}};
-}
+    Node needed(const char* key) const {
+        const auto node = root_[key];
+        if (!node) throw Error("{}: has no '{}'", place_.file, key);
+        return node;
+    }
+    std::string text(const char* key) const { return place_.as<std::string>(needed(key), key, "a text"); }
 
-PaperTable person_parts() {
-    return {"table4",
-            "Discriminator and positions, two persons",
-            {{"NTU-2P", five}},
-            {{"AvgPool D", {{53.85, 20.42, 8.33, 25.35, 10.09}}},
-             {"MaxPool D", {{60.19, 10.71, 4.01, 17.26, 5.42}}},
-             {"SelfAtt D", {{51.53, 19.96, 8.27, 24.91, 8.75}}},
-             {"fixed PE", {{61.42, 4.86, 3.64, 7.71, 2.78}}},
-             {"independent PE", {{67.19, 4.08, 3.38, 7.00, 2.62}}},
-             {"full", {{69.65, 3.77, 3.27, 7.12, 2.46}}}}};
-}
+    Metric metric(const Node& where) const {
+        Metric out;
+        try {
+            out = scored_metric(place_.as<std::string>(where, "metrics", "names of metrics"));
+        } catch (const Error& e) {
+            place_.fail(where, e.what());
+        }
+        const auto metrics = root_["metrics"];
+        if (!metrics || !metrics[out.name]) return out;
+        const auto own = metrics[out.name];
+        if (own["heading"]) out.heading = place_.as<std::string>(own["heading"], "heading", "a text");
+        if (own["scale"]) out.scale = place_.as<double>(own["scale"], "scale", "a number");
+        if (own["better"]) out.better = better(own["better"]);
+        return out;
+    }
+    Better better(const Node& node) const {
+        const auto said = place_.as<std::string>(node, "better", "a text");
+        for (const auto one : {Better::lower, Better::higher, Better::nearest_to_real})
+            if (said == name_of(one)) return one;
+        place_.fail(node,
+                    fmt::format("'better' must be lower, higher or nearest to real, and not '{}'", said));
+    }
 
-PaperTable interaction_parts() {
-    return {
-        "table5",
-        "Latents and interaction, several persons",
-        with_groups(),
-        {{"without shared z", {{56.35, 14.79, 5.73, 20.69, 7.26}, {1.26}, {1.36}, {1.84}, {2.42}}},
-         {"interaction by concatenation", {{56.46, 7.63, 4.33, 11.51, 3.57}, {1.15}, {1.37}, {2.23}, {7.62}}},
-         {"complete", {{69.65, 3.77, 3.27, 7.12, 2.46}, {1.04}, {1.13}, {1.58}, {2.23}}}}};
-}
+    void read_columns() {
+        const auto columns = needed("columns");
+        place_.expect_list(columns, "columns");
+        std::vector<std::string> seen, printed;
+        for (const auto& node : columns) {
+            place_.expect_map(node, "a column");
+            check_keys(node, {"dataset", "metrics"});
+            if (!node["dataset"] || !node["metrics"])
+                place_.fail(node, "a column must say dataset and metrics");
+            PaperColumns one;
+            one.dataset = place_.as<std::string>(node["dataset"], "dataset", "a text");
+            check_name(node, one.dataset, seen);
+            place_.expect_list(node["metrics"], "metrics");
+            for (const auto& name : node["metrics"]) {
+                one.metrics.push_back(metric(name));
+                printed.push_back(one.metrics.back().name);
+            }
+            if (one.metrics.empty()) place_.fail(node, "a column must have a metric");
+            table_.columns.push_back(std::move(one));
+        }
+        if (table_.columns.empty()) place_.fail(columns, "a table must have columns");
+        check_metrics(printed);
+    }
+    void check_metrics(const std::vector<std::string>& printed) const {
+        const auto metrics = root_["metrics"];
+        if (!metrics) return;
+        place_.expect_map(metrics, "metrics");
+        check_keys(metrics, printed);
+        for (const auto& item : metrics) {
+            place_.expect_map(item.second, "a metric");
+            check_keys(item.second, {"heading", "scale", "better"});
+        }
+    }
+
+    void read_rows() {
+        const auto rows = needed("rows");
+        place_.expect_map(rows, "rows");
+        std::vector<std::string> seen;
+        for (const auto& item : rows) {
+            PaperRow row;
+            row.name = item.first.Scalar();
+            check_name(item.first, row.name, seen);
+            place_.expect_map(item.second, fmt::format("row '{}'", row.name));
+            check_keys(item.second, datasets());
+            for (const auto& column : table_.columns)
+                row.figures.push_back(figures(row, column, item.second[column.dataset]));
+            table_.rows.push_back(std::move(row));
+        }
+        if (table_.rows.empty()) place_.fail(rows, "a table must have rows");
+    }
+    std::vector<std::string> datasets() const {
+        std::vector<std::string> out;
+        for (const auto& column : table_.columns) out.push_back(column.dataset);
+        return out;
+    }
+    std::vector<PaperFigure> figures(const PaperRow& row, const PaperColumns& column,
+                                     const Node& node) const {
+        const auto count = column.metrics.size();
+        if (!node) return std::vector<PaperFigure>(count);
+        if (node.IsScalar() && node.Scalar() == "not at hand") return {count, {{}, {}, false}};
+        place_.expect_list(node, fmt::format("'{}' of row '{}'", column.dataset, row.name));
+        if (node.size() != count)
+            place_.fail(node, fmt::format("row '{}', {}: {} figures for {} metrics", row.name, column.dataset,
+                                          node.size(), count));
+        std::vector<PaperFigure> out;
+        for (const auto& one : node) out.push_back(figure(one));
+        return out;
+    }
+
+    /// "12.53", "12.53 ± 0.2", "-" or "not at hand"
+    PaperFigure figure(const Node& node) const {
+        const auto said = place_.as<std::string>(node, "a figure", "a number");
+        if (said == "-") return {};
+        if (said == "not at hand") return {{}, {}, false};
+        const std::string sign = " ± ";
+        const auto at = said.find(sign);
+        PaperFigure out;
+        out.value = number(node, said.substr(0, at));
+        if (at != std::string::npos) out.half_width = number(node, said.substr(at + sign.size()));
+        return out;
+    }
+    double number(const Node& where, const std::string& said) const {
+        double value = 0;
+        const auto* end = said.data() + said.size();
+        if (const auto read = std::from_chars(said.data(), end, value);
+            read.ec == std::errc() && read.ptr == end && value - value == 0)
+            return value;
+        place_.fail(where, fmt::format("'{}' is no figure: a number, a number ± a number, - (not printed) or "
+                                       "not at hand",
+                                       where.Scalar()));
+    }
+
+    std::size_t row_called(const Node& node) const {
+        const auto name = place_.as<std::string>(node, "real", "the name of a row");
+        const auto found = std::ranges::find(table_.rows, name, &PaperRow::name);
+        if (found == table_.rows.end()) place_.fail(node, fmt::format("real: there is no row '{}'", name));
+        return static_cast<std::size_t>(found - table_.rows.begin());
+    }
+
+    YamlPlace place_;
+    Node root_;
+    PaperTable table_;
+};
 
 template <typename Items, typename Name>
 std::size_t index_of(const Items& items, const std::string& wanted, Name name, const std::string& cell,
                      const char* what) {
     std::string all;
     for (std::size_t i = 0; i < items.size(); ++i) {
-        if (name(items[i]) == wanted) return i;
-        all += (all.empty() ? "" : ", ") + name(items[i]);
+        if (items[i].*name == wanted) return i;
+        all += (all.empty() ? "" : ", ") + items[i].*name;
     }
     throw Error("cell '{}': there is no {} '{}'; there are {}", cell, what, wanted, all);
 }
 
+std::vector<PaperTable> all_tables() {
+    std::vector<PaperTable> out;
+    for (const auto name : table_file_names())
+        out.push_back(read_table(table_file(name), "reports/tables/" + std::string(name)));
+    std::ranges::sort(out, {}, &PaperTable::order);
+    return out;
+}
+
 }  // namespace
 
+PaperTable read_table(std::string_view yaml, const std::string& file) {
+    return TableReader(yaml, file).read();
+}
+
 const std::vector<PaperTable>& paper_tables() {
-    static const std::vector<PaperTable> tables{single_person(), several_persons(), generator_parts(),
-                                                person_parts(), interaction_parts()};
+    static const std::vector<PaperTable> tables = all_tables();
     return tables;
 }
 
-Cell find_cell(const std::string& name) {
+Cell find_cell(const std::string& name, const std::vector<PaperTable>& tables) {
     const auto first = name.find('/'), last = name.rfind('/');
     if (first == std::string::npos || first == last)
         throw Error("cell '{}': a table, a row and a dataset are expected, as in table3/full/NTU-1P", name);
-    const auto& tables = paper_tables();
     Cell cell;
-    cell.table = &tables[index_of(
-        tables, name.substr(0, first), [](const PaperTable& t) { return t.id; }, name, "table")];
-    cell.row = index_of(
-        cell.table->rows, name.substr(first + 1, last - first - 1), [](const PaperRow& r) { return r.name; },
-        name, "row");
-    cell.columns = index_of(
-        cell.table->columns, name.substr(last + 1), [](const PaperColumns& c) { return c.dataset; }, name,
-        "dataset");
+    cell.table = &tables[index_of(tables, name.substr(0, first), &PaperTable::id, name, "table")];
+    cell.row =
+        index_of(cell.table->rows, name.substr(first + 1, last - first - 1), &PaperRow::name, name, "row");
+    cell.columns =
+        index_of(cell.table->columns, name.substr(last + 1), &PaperColumns::dataset, name, "dataset");
     return cell;
+}
+
+std::string words_of(const Cell& cell) {
+    return fmt::format("{} · {} · {}", cell.table->title, cell.table->rows[cell.row].name,
+                       cell.table->columns[cell.columns].dataset);
 }
 
 }  // namespace actformer::reports

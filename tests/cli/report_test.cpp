@@ -29,7 +29,7 @@ struct Swept {
             const ingest::Dataset dataset(dir / "data" / name);
             const auto classes = static_cast<std::uint32_t>(dataset.header().classes.size());
             eval::write_weights(
-                dir / (std::string(name) + "-eyes.h5"),
+                dir / (std::string(name) + "-recogniser.h5"),
                 eval::random_weights(3 * dataset.header().persons, classes, eval::ntu_graph(), 0.125, 1));
             write_motions(dataset, std::string(name) + ".h5");
         }
@@ -54,16 +54,16 @@ struct Swept {
             "  one: {{path: {0}/ntu-1p}}\n"
             "  two: {{path: {0}/ntu-2p}}\n"
             "recognisers:\n"
-            "  eyes: {{weights: {1}}}\n"
-            "  four eyes: {{weights: {2}}}\n"
-            "base: {{data: one, recogniser: eyes, motions: [{3}], split: all}}\n"
+            "  one person: {{weights: {1}}}\n"
+            "  two persons: {{weights: {2}}}\n"
+            "base: {{data: one, recogniser: one person, motions: [{3}], split: all}}\n"
             "rows:\n"
             "  full: {{fills: [table1/ActFormer/NTU-1P, table3/full/NTU-1P]}}\n"
             "  \"</script><script>window.hostile = 1</script>\": {{fills: [table3/fixed PE/NTU-1P]}}\n"
-            "  pairs: {{data: two, recogniser: four eyes, single_recogniser: eyes, motions: [{4}], fills: "
+            "  pairs: {{data: two, recogniser: two persons, single_recogniser: one person, motions: [{4}], fills: "
             "[table2/ActFormer/NTU-2P]}}\n"
             "  lost: {{motions: [nowhere.h5], fills: [table3/Gaussian prior/NTU-1P]}}\n",
-            at("data"), at("ntu-1p-eyes.h5"), at("ntu-2p-eyes.h5"), at("ntu-1p.h5"), at("ntu-2p.h5"));
+            at("data"), at("ntu-1p-recogniser.h5"), at("ntu-2p-recogniser.h5"), at("ntu-1p.h5"), at("ntu-2p.h5"));
     }
 };
 

@@ -190,6 +190,8 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
     expect_refused({"'repeats'", "at least 1"});
     sweep_file("  a: {data: three}\n");
     expect_refused({"line 9", "no dataset 'three'"});
+    write_file(dir / "sweep.yaml", "datasets:\n  one: {raw: [x], format: bhv}\nrows:\n  a: {}\n");
+    expect_refused({"line 2", "no format 'bhv'; there are", "bvh", "ntu"});
     sweep_file("  a: {recogniser: ears}\n");
     expect_refused({"no recogniser 'ears'"});
     sweep_file("  a: 3\n");

@@ -48,8 +48,8 @@ struct SweepFixture : testing::Test {
                    "  one: {clips: 60, actions: 1-4, use: ntu-1p}\n"
                    "  two: {like: one, use: ntu-2p}\n"
                    "recognisers:\n"
-                   "  eyes: {data: one, config: r.yaml, set: {epochs: 2}}\n"
-                   "base: {data: one, recogniser: eyes, config: g.yaml, repeats: 3, set: {epochs: 5}}\n" +
+                   "  one: {data: one, config: r.yaml, set: {epochs: 2}}\n"
+                   "base: {data: one, recogniser: one, config: g.yaml, repeats: 3, set: {epochs: 5}}\n" +
                        more + "rows:\n" + rows);
     }
     std::string command(const std::string& more = "") const {

@@ -108,7 +108,7 @@ const body = (() => {
     });
   }
 
-  // --- Figures: a motion with all that drawing it needs -------------------------------------------
+  // --- Scenes: a motion with all that drawing it needs ---------------------------------------------
 
   function percentile(values, share) {
     const sorted = [...values].sort((a, b) => a - b);
@@ -189,7 +189,7 @@ const body = (() => {
   }
 
   /** A motion made ready: solids, radii, bounds and the arrays that its frames are worked out in. */
-  function makeFigure(motion, topology) {
+  function makeScene(motion, topology) {
     const tree = readTopology(topology);
     const people = Array.from({ length: motion.persons }, (_, p) => limbLengths(motion, tree.parents, p));
     const roots = limbRoots(tree, motion, people[0]), trunk = trunkOf(tree, roots), solids = solidsOf(tree, roots, trunk);
@@ -205,8 +205,8 @@ const body = (() => {
   }
 
   /** Joint positions at `time`, between the frames that were captured; each motion loops on its own. */
-  function pose(figure, time) {
-    const { motion, world } = figure, x = motion.positions, size = world.length;
+  function pose(scene, time) {
+    const { motion, world } = scene, x = motion.positions, size = world.length;
     const place = (time * motion.fps) % motion.frames, frame = Math.min(Math.floor(place), motion.frames - 1);
     const next = Math.min(frame + 1, motion.frames - 1), share = place - frame;
     for (let i = 0; i < size; ++i) {
@@ -243,5 +243,5 @@ const body = (() => {
     }
   }
 
-  return { PARTS, TRUNK_PART, makeFigure, pose, project, sortSolids };
+  return { PARTS, TRUNK_PART, makeScene, pose, project, sortSolids };
 })();

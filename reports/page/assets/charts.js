@@ -78,6 +78,8 @@ const charts = (() => {
 
   // --- Curves -------------------------------------------------------------------------------------
 
+  const COLOURS = 4;
+
   /** SVG path through the points whose value is there; a gap stays a gap only where nothing follows it. */
   function curvePath(points, key, x, y) {
     return points.filter((p) => data.present(p[key]))
@@ -116,16 +118,15 @@ const charts = (() => {
   }
 
   /**
-   * One chart over epochs. `series`: [{key, name, colour}] with `colour` 1 to 4; `unit` ("%") follows the
-   * values read off. Series without any value are left out; null when none is left.
+   * One chart over epochs. `series`: [{key, name}], coloured in turn; `unit` ("%") follows the values read
+   * off. Series without any value are left out; null when none is left.
    */
-  function curves(points, { title, series, unit = "", fromZero = false, scale = 1 }, width) {
-    const drawn = series.filter((s) => points.some((p) => data.present(p[s.key])));
+  function curves(points, { title, series, unit, from_zero: fromZero }, width) {
+    const drawn = series.filter((s) => points.some((p) => data.present(p[s.key])))
+      .map((s, i) => ({ ...s, colour: 1 + (i % COLOURS) }));
     if (!drawn.length) return null;
-    const scaled = points.map((p) => ({ epoch: p.epoch, ...Object.fromEntries(
-      drawn.map((s) => [s.key, data.present(p[s.key]) ? p[s.key] * scale : null])) }));
-    const values = drawn.flatMap((s) => scaled.map((p) => p[s.key]).filter(data.present));
-    const low = Math.min(...values), epochs = scaled.map((p) => p.epoch);
+    const values = drawn.flatMap((s) => points.map((p) => p[s.key]).filter(data.present));
+    const low = Math.min(...values), epochs = points.map((p) => p.epoch);
     // One epoch alone still needs a width to stand in.
     const xRange = [Math.min(...epochs), Math.max(Math.max(...epochs), Math.min(...epochs) + 1)];
     const height = 230, box = { left: 58, right: width - 14, top: 10, bottom: height - 44 };
@@ -135,7 +136,7 @@ const charts = (() => {
     const cursor = svg("path", { class: "cursor", visibility: "hidden" });
     const chart = drawing(width, height, { class: "chart", tabindex: 0, role: "img",
       "aria-label": `${title} over ${epochs.length} epochs; left and right read values off` },
-      frame.group, ...drawn.flatMap((s) => curveMarks(scaled, s, frame.x, frame.y)), cursor);
+      frame.group, ...drawn.flatMap((s) => curveMarks(points, s, frame.x, frame.y)), cursor);
     const entries = drawn.map((s) => legendEntry(`line line-${s.colour}`, s.name));
     const epoch = html("span", { class: "value" });
     epochCursor(chart, epochs, frame.x, (index) => {
@@ -143,8 +144,8 @@ const charts = (() => {
       if (index >= 0) cursor.setAttribute("d", `M${frame.x(epochs[index])} ${box.top}V${box.bottom}`);
       epoch.textContent = index < 0 ? "" : `epoch ${epochs[index]}`;
       drawn.forEach((s, i) => {
-        const value = index < 0 ? null : scaled[index][s.key];
-        entries[i].value.textContent = index < 0 ? "" : data.present(value) ? data.figure(value) + unit : "–";
+        const value = index < 0 ? null : points[index][s.key];
+        entries[i].value.textContent = index < 0 ? "" : data.present(value) ? data.figure(value) + (unit && ` ${unit}`) : "–";
       });
     });
     const legend = html("figcaption", { class: "entries", "aria-live": "polite" }, ...entries.map((e) => e.entry), epoch);
@@ -153,39 +154,32 @@ const charts = (() => {
 
   // --- Bars ---------------------------------------------------------------------------------------
 
-  /** A column of bars: what it shows, its scale from 0, and how a value reads. */
-  function barColumn(key, title, perClass, { highest, floor, text = data.figure, name = key }) {
+  /** A column of bars with its scale from 0, to 100 for shares; null where no class has a value. */
+  function barColumn(column, index, perClass) {
+    const { key, floor, unit } = column, share = unit === "%";
     const values = perClass.flatMap((c) => [c[key], floor ? c[floor] : null]).filter(data.present);
     if (!values.length) return null;
-    const marks = ticks(0, highest ?? Math.max(...values), 4);
-    return { key, title, name, floor, text, marks, end: marks.at(-1) };
-  }
-
-  function barColumns(perClass) {
-    return [
-      barColumn("accuracy", "Accuracy, %", perClass, { highest: 1, text: (v) => (100 * v).toFixed(0) }),
-      barColumn("fid", "FID", perClass, { floor: "floor" }),
-      barColumn("fida", "FID-a", perClass, {}),
-    ].filter(Boolean);
+    const marks = ticks(0, share ? 100 : Math.max(...values), 4);
+    return { ...column, colour: 1 + (index % COLOURS), text: share ? (v) => v.toFixed(0) : data.figure, marks, end: marks.at(-1) };
   }
 
   /** The sticky head of a column: its title over its axis. */
-  function barHead(column) {
-    const labels = tickText(column.marks.map((v) => (column.key === "accuracy" ? 100 * v : v)));
+  function barHead({ heading, unit, marks, end }) {
+    const labels = tickText(marks);
     const axis = html("span", { class: "bar-axis", "aria-hidden": "true" });
-    column.marks.forEach((v, i) => {
+    marks.forEach((v, i) => {
       const label = html("span", {}, labels[i]);
-      label.style.left = `${(100 * v) / column.end}%`;
+      label.style.left = `${(100 * v) / end}%`;
       axis.append(label);
     });
-    return html("th", { scope: "col" }, column.title, axis);
+    return html("th", { scope: "col" }, data.capital(heading) + (unit && `, ${unit}`), axis);
   }
 
   function barCell(column, entry) {
     const value = entry[column.key];
     const cell = html("td", {});
     if (!data.present(value)) return fill(cell, { class: "none" }, ["–"]);
-    const track = html("span", { class: "track" }), bar = html("span", { class: `fill fill-${column.name}` });
+    const track = html("span", { class: "track" }), bar = html("span", { class: `fill fill-${column.colour}` });
     track.style.setProperty("--steps", column.marks.length - 1);
     bar.style.width = `${(100 * value) / column.end}%`;
     track.append(bar);
@@ -199,15 +193,15 @@ const charts = (() => {
   }
 
   /**
-   * Accuracy and FID of each class as bars in a table: it reads as one, scrolls in its box and prints whole.
-   * `choose(class)` is called for a click on a row.
+   * Metrics of each class as bars in a table: it reads as one, scrolls in its box and prints whole. `metrics`:
+   * [{key, heading, unit, better, floor}]; `order`: the key of one of them. `choose(class)` is called for a click on a row.
    */
-  function bars(classes, perClass, order, chosen, choose) {
-    const columns = barColumns(perClass);
+  function bars(classes, perClass, metrics, order, chosen, choose) {
+    const columns = metrics.map((metric, i) => barColumn(metric, i, perClass)).filter(Boolean);
     if (!columns.length) return missing("No class of this run was scored.");
     const head = html("tr", {}, html("th", { scope: "col" }, "Action"), ...columns.map(barHead));
     const body = html("tbody");
-    for (const c of data.classOrder(perClass, order)) {
+    for (const c of data.classOrder(perClass, metrics.find((m) => m.key === order))) {
       const entry = perClass[c];
       const name = html("th", { scope: "row", title: `${entry.real} real, ${entry.generated} generated` }, classes[c] ?? `class ${c}`);
       const line = html("tr", c === chosen ? { class: "chosen" } : {}, name, ...columns.map((column) => barCell(column, entry)));
@@ -215,7 +209,7 @@ const charts = (() => {
       body.append(line);
     }
     const table = html("table", { class: "bars" }, html("thead", {}, head), body);
-    const scroll = html("div", { class: "bars-box", tabindex: 0, role: "region", "aria-label": "Accuracy and FID by action" }, table);
+    const scroll = html("div", { class: "bars-box", tabindex: 0, role: "region", "aria-label": `${columns.map((c) => c.heading).join(", ")} by action` }, table);
     if (!columns.some((c) => c.floor)) return scroll;
     const key = html("p", { class: "quiet" }, html("span", { class: "floor-key", "aria-hidden": "true" }),
       " the floor: FID of real motions against other real motions of the class");
@@ -226,7 +220,7 @@ const charts = (() => {
 
   // --- Confusion matrix ---------------------------------------------------------------------------
 
-  const levels = 25;  // steps of shading: more than eyes tell apart, and few enough to draw as paths
+  const levels = 25;  // steps of shading: more than one can tell apart, and few enough to draw as paths
 
   /** One path a step of shading: 120 x 120 cells as a few elements rather than fourteen thousand. */
   function matrixShades(confusion, cell, origin) {

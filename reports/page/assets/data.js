@@ -1,4 +1,4 @@
-// Decoding: from the report's JSON to typed arrays and plain figures. Nothing here touches the page.
+// Decoding: from the report's JSON to typed arrays and plain numbers. Nothing here touches the page.
 const data = (() => {
   /** Little-endian 16-bit numbers from base64, on any machine; `Type` is Int16Array or Uint16Array. */
   function decode16(base64, Type) {
@@ -75,23 +75,27 @@ const data = (() => {
     return all.sort((a, b) => b.count / b.of - a.count / a.of || b.count - a.count).slice(0, most);
   }
 
-  /** Class indices in the order asked for; classes without the figure come last. */
-  function classOrder(perClass, order) {
+  /** Class indices, the worst by `column` first; classes without the figure come last. As they are without a column. */
+  function classOrder(perClass, column) {
     const indices = perClass.map((_, i) => i);
-    const worse = { accuracy: (c) => c.accuracy, fid: (c) => (c.fid == null ? null : -c.fid) }[order];
-    if (!worse) return indices;
-    const key = (i) => worse(perClass[i]) ?? Infinity;
+    if (!column) return indices;
+    const key = (i) => {
+      const value = perClass[i][column.key];
+      return value == null ? Infinity : column.better === "higher" ? value : -value;
+    };
     return indices.sort((a, b) => (key(a) === key(b) ? a - b : key(a) - key(b)));
   }
 
   const present = (value) => typeof value === "number" && Number.isFinite(value);
 
-  /** `value` with three figures or so: 12.5, 3.57, 0.0412, 1240. */
+  /** `value` with three digits or so: 12.5, 3.57, 0.0412, 1240. */
   function figure(value) {
     const size = Math.abs(value);
     const digits = size >= 100 ? 0 : size >= 10 ? 1 : size >= 0.1 || size === 0 ? 2 : 4;
     return value.toFixed(digits).replace("-", "−");
   }
 
-  return { motionsOf, pointsOf, commonConfusions, classOrder, present, figure, sum };
+  const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
+
+  return { motionsOf, pointsOf, commonConfusions, classOrder, present, figure, capital, sum };
 })();

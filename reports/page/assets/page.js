@@ -4,12 +4,6 @@ const { html, missing } = charts;
 const report = JSON.parse(byId("data").textContent);
 
 const MOST = 4;  // motions a band
-const METRICS = [
-  { key: "accuracy", name: "Accuracy", unit: " %" },
-  { key: "fid_mean", name: "FID, mean of actions" }, { key: "fid_whole", name: "FID, whole set" },
-  { key: "fida_mean", name: "FID-a, mean of actions" }, { key: "fida_whole", name: "FID-a, whole set" },
-  { key: "diversity", name: "Diversity" }, { key: "multimodality", name: "Multimodality" },
-];
 const chosen = { run: 0, action: -1 };
 const row = () => report.rows[chosen.run];
 /** Pixels across an element; a page opened in the background has none yet, and is drawn again when it has. */
@@ -17,13 +11,13 @@ const widthOf = (element) => Math.max(280, element.clientWidth);
 
 // --- Run: its name, scores and warnings -----------------------------------------------------------
 
-/** A figure with what to compare it with: real motions' accuracy, or the floor of real against real. */
-function scoreItem({ key, name, unit = "" }, { scores, floor, real_accuracy: real }) {
-  if (!data.present(scores?.[key])) return null;
-  const against = key === "accuracy" ? real : floor?.[key];
-  const note = data.present(against) ? `${key === "accuracy" ? "real" : "floor"} ${data.figure(against)}${unit}` : "";
-  return html("div", {}, html("dt", {}, name),
-    html("dd", {}, data.figure(scores[key]) + unit, html("small", {}, note)));
+const withUnit = (value, unit) => data.figure(value) + (unit && ` ${unit}`);
+
+/** A score with what real motions come to: their own value, or the floor of real against real. */
+function scoreItem({ heading, unit, value, real, floor }) {
+  const [name, against] = data.present(real) ? ["real", real] : ["floor", floor];
+  return html("div", {}, html("dt", {}, data.capital(heading)), html("dd", {}, withUnit(value, unit),
+    html("small", {}, data.present(against) ? `${name} ${withUnit(against, unit)}` : "")));
 }
 
 const STATES = { failed: "This run failed", waiting: "This run is not finished" };
@@ -33,7 +27,7 @@ function showRun() {
   byId("run-name").textContent = run.name;
   byId("fills").textContent = (run.fills?.length ? `Fills ${run.fills.join("; ")}.` : "Fills no cell of the tables.") +
     (run.sweep ? ` Sweep ${run.sweep}.` : "");
-  byId("scores").replaceChildren(...METRICS.map((metric) => scoreItem(metric, run)).filter(Boolean));
+  byId("scores").replaceChildren(...(run.scores ?? []).map(scoreItem));
   const state = STATES[run.status];
   byId("warnings").replaceChildren(
     ...(state ? [html("p", { class: run.status }, run.why ? `${state}: ${run.why}` : `${state}.`)] : []),
@@ -46,7 +40,7 @@ const actionName = (action) => (action < 0 ? "all actions" : row().classes?.[act
 
 function showMotions() {
   const found = data.motionsOf(report, row(), chosen.action, MOST);
-  const figures = (motions) => motions.map((m) => body.makeFigure(m, found.topology));
+  const scenes = (motions) => motions.map((m) => body.makeScene(m, found.topology));
   const some = Boolean(found && found.real.length + found.generated.length);
   byId("stage").hidden = !some;
   byId("motions-missing").hidden = some;
@@ -56,8 +50,8 @@ function showMotions() {
     return;
   }
   theViewer.show([
-    { name: "Real", figures: figures(found.real), empty: "no real motion of this action in the report" },
-    { name: "Generated", figures: figures(found.generated), empty: "no generated motion of this action in the report" },
+    { name: "Real", scenes: scenes(found.real), empty: "no real motion of this action in the report" },
+    { name: "Generated", scenes: scenes(found.generated), empty: "no generated motion of this action in the report" },
   ], `${found.real.length} real and ${found.generated.length} generated motions of ${actionName(chosen.action)}`);
 }
 
@@ -65,7 +59,8 @@ function showMotions() {
 
 function showBars() {
   const box = byId("bars"), top = box.firstElementChild?.scrollTop ?? 0;
-  box.replaceChildren(charts.bars(row().classes ?? [], row().per_class ?? [], byId("order").value, chosen.action, chooseAction));
+  box.replaceChildren(charts.bars(row().classes ?? [], row().per_class ?? [], report.class_columns, byId("order").value,
+    chosen.action, chooseAction));
   if (box.firstElementChild) box.firstElementChild.scrollTop = top;
 }
 
@@ -74,28 +69,12 @@ function showConfusion() {
     charts.confusionMatrix(row().classes ?? [], row().confusion, chosen.action, widthOf(byId("matrix"))));
 }
 
-const CURVES = {
-  generator: [
-    { title: "loss", series: [{ key: "discriminator_loss", name: "discriminator", colour: 1 },
-      { key: "generator_loss", name: "generator", colour: 2 }] },
-    { title: "discriminator’s score", series: [{ key: "real_score", name: "of real motions", colour: 4 },
-      { key: "fake_score", name: "of generated motions", colour: 2 }] },
-    { title: "accuracy", unit: " %", scale: 100, fromZero: true, series: [{ key: "accuracy", name: "of generated motions", colour: 3 }] },
-    { title: "FID", fromZero: true, series: [{ key: "fid_whole", name: "whole set", colour: 2 }] },
-  ],
-  recogniser: [
-    { title: "loss", series: [{ key: "loss", name: "recogniser", colour: 1 }] },
-    { title: "accuracy", unit: " %", scale: 100, fromZero: true, series: [{ key: "accuracy", name: "recogniser", colour: 3 }] },
-  ],
-};
-
 function showCurves() {
   const box = byId("curves"), columns = widthOf(box) >= 760 ? 2 : 1, gap = 28;
   const width = (widthOf(box) - gap * (columns - 1)) / columns;
   box.style.setProperty("--columns", columns);
-  const groups = Object.entries(CURVES).map(([network, panels]) => {
-    const points = row().curves?.[network] ?? [];
-    const drawn = points.length ? panels.map((panel) => charts.curves(points, panel, width)).filter(Boolean) : [];
+  const groups = Object.entries(row().curves ?? {}).map(([network, curves]) => {
+    const drawn = (curves?.charts ?? []).map((chart) => charts.curves(curves.points, chart, width)).filter(Boolean);
     return drawn.length ? html("div", {}, html("h3", {}, `The ${network}`), html("div", { class: "pairs" }, ...drawn)) : null;
   }).filter(Boolean);
   box.replaceChildren(...(groups.length ? groups : [missing("No training curves were kept for this run.")]));
@@ -173,6 +152,12 @@ function listenForWidth() {
   }).observe(byId("panels"));
 }
 
+/** "lowest accuracy first": each metric of the classes, the worst class on top. */
+function offerOrders() {
+  byId("order").append(...report.class_columns.map(({ key, heading, better }) =>
+    option(key, `${better === "higher" ? "lowest" : "highest"} ${heading} first`)));
+}
+
 function listen() {
   byId("run").addEventListener("change", () => chooseRun(Number(byId("run").value)));
   byId("action").addEventListener("change", () => chooseAction(Number(byId("action").value)));
@@ -198,6 +183,7 @@ if (report.rows.length) {
   byId("panels").hidden = false;
   byId("run").replaceChildren(...report.rows.map((r, i) =>
     option(String(i), r.status === "done" ? r.name : `${r.name} (${r.status === "failed" ? "failed" : "not finished"})`)));
+  offerOrders();
   listen();
   chooseRun(0);
 }

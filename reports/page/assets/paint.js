@@ -112,8 +112,8 @@ const paint = (() => {
     }
   }
 
-  function paintBodies(context, paint, figure, eye) {
-    const { solids, motion, screen, order, radii, bounds } = figure, rim = Math.max(0.6, 0.007 * eye.scale);
+  function paintBodies(context, paint, scene, eye) {
+    const { solids, motion, screen, order, radii, bounds } = scene, rim = Math.max(0.6, 0.007 * eye.scale);
     for (let n = 0; n < order.length; ++n) {
       const i = order[n], solid = solids[i % solids.length], person = Math.floor(i / solids.length);
       const a = (person * motion.joints + solid.a) * 3, b = (person * motion.joints + solid.b) * 3;
@@ -138,8 +138,8 @@ const paint = (() => {
   const SPACING = 0.5;  // metres between the lines of the floor
 
   /** A disc of `size` metres around the group that fades out, with lines. */
-  function paintFloor(context, paint, figure, eye, size) {
-    const ux = Math.cos(figure.front), uz = -Math.sin(figure.front);  // lines run as the group faces
+  function paintFloor(context, paint, scene, eye, size) {
+    const ux = Math.cos(scene.front), uz = -Math.sin(scene.front);  // lines run as the group faces
     onFloor(context, eye, 0, 0, ux, uz, size, size);
     context.fillStyle = paint.floor;
     context.beginPath();

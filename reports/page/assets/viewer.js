@@ -7,19 +7,19 @@ const viewer = (() => {
 
   const START = { azimuth: -0.55, elevation: 0.2, zoom: 1 };
   const BAND = 26, TITLE = 20;  // heights of a band's heading and of a cell's title, pixels
-  /** Cells of both bands: {bands: [{name, y, empty}], cells: [{x, y, width, height, figure}], height}. */
+  /** Cells of both bands: {bands: [{name, y, empty}], cells: [{x, y, width, height, scene}], height}. */
   function layout(sets, width) {
-    const most = Math.max(1, ...sets.map((s) => s.figures.length));
+    const most = Math.max(1, ...sets.map((s) => s.scenes.length));
     const columns = Math.min(most, width < 560 ? 2 : 4);
     const cellWidth = width / columns, cellHeight = clamp(cellWidth * 1.05, 190, columns > 2 ? 300 : 360);
     const bands = [], cells = [];
     let y = 0;
-    for (const { name, figures, empty } of sets) {
-      bands.push({ name, y, empty: figures.length ? "" : empty });
+    for (const { name, scenes, empty } of sets) {
+      bands.push({ name, y, empty: scenes.length ? "" : empty });
       y += BAND;
-      figures.forEach((figure, i) => cells.push({ figure, x: (i % columns) * cellWidth,
+      scenes.forEach((scene, i) => cells.push({ scene, x: (i % columns) * cellWidth,
         y: y + Math.floor(i / columns) * (cellHeight + TITLE), width: cellWidth, height: cellHeight }));
-      y += figures.length ? Math.ceil(figures.length / columns) * (cellHeight + TITLE) : 40;
+      y += scenes.length ? Math.ceil(scenes.length / columns) * (cellHeight + TITLE) : 40;
     }
     return { bands, cells, height: Math.ceil(y) };
   }
@@ -31,8 +31,8 @@ const viewer = (() => {
   function fit(cells) {
     if (!cells.length) return { scale: 1, tall: 1, floor: 1 };
     const cos = Math.cos(START.elevation), sin = Math.sin(START.elevation), margin = 0.12;
-    const tall = Math.max(...cells.map(({ figure: { bounds } }) => bounds.top - bounds.floor)) + margin;
-    const wide = Math.max(...cells.map(({ figure: { bounds } }) => bounds.radius)) + margin;
+    const tall = Math.max(...cells.map(({ scene: { bounds } }) => bounds.top - bounds.floor)) + margin;
+    const wide = Math.max(...cells.map(({ scene: { bounds } }) => bounds.radius)) + margin;
     const { width, height } = cells[0], scale = Math.min(width / (2 * wide), height / (tall * cos + 2 * wide * sin));
     return { tall, scale, floor: Math.min(wide + 0.4, width / (2 * scale), (height / scale - tall * cos) / (2 * sin)) };
   }
@@ -93,19 +93,19 @@ const viewer = (() => {
     }
 
     drawCell(cell) {
-      const { context, dense, eye } = this, { figure } = cell;
+      const { context, dense, eye } = this, { scene } = cell;
       context.setTransform(dense, 0, 0, dense, 0, 0);
       context.save();
       context.beginPath();
       context.rect(cell.x, cell.y, cell.width, cell.height);
       context.clip();
-      this.aim(eye, cell, figure);
-      pose(figure, this.time);
-      project(figure, eye);
-      sortSolids(figure);
-      paintFloor(context, this.paint, figure, eye, this.fit.floor);
-      paintShadow(context, this.paint, figure, eye);
-      paintBodies(context, this.paint, figure, eye);
+      this.aim(eye, cell, scene);
+      pose(scene, this.time);
+      project(scene, eye);
+      sortSolids(scene);
+      paintFloor(context, this.paint, scene, eye, this.fit.floor);
+      paintShadow(context, this.paint, scene, eye);
+      paintBodies(context, this.paint, scene, eye);
       context.restore();
     }
 
@@ -138,8 +138,8 @@ const viewer = (() => {
       }
       context.textAlign = "center";
       context.font = "12px system-ui, sans-serif";
-      for (const { figure, x, y, width: across, height } of place.cells)
-        context.fillText(figure.motion.title, x + across / 2, y + height + TITLE / 2 - 2, across - 12);
+      for (const { scene, x, y, width: across, height } of place.cells)
+        context.fillText(scene.motion.title, x + across / 2, y + height + TITLE / 2 - 2, across - 12);
     }
   }
 
@@ -181,9 +181,9 @@ const viewer = (() => {
       this.listen();
     }
 
-    /** Shows `sets`, [{name, figures, empty}]; the clock goes to a third of the longest motion, paused. */
+    /** Shows `sets`, [{name, scenes, empty}]; the clock goes to a third of the longest motion, paused. */
     show(sets, words) {
-      const motions = sets.flatMap((s) => s.figures.map((f) => f.motion));
+      const motions = sets.flatMap((s) => s.scenes.map((f) => f.motion));
       const lasts = (m) => m.frames / m.fps;
       this.longest = motions.reduce((a, b) => (lasts(b) > lasts(a) ? b : a), motions[0]);
       this.parts.canvas.setAttribute("aria-label", words);

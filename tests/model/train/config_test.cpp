@@ -118,11 +118,3 @@ TEST(ShippedConfigs, AllLoad) {
     }
     EXPECT_GE(count, 8U);
 }
-
-TEST(NearestWord, CountsSwapsAndParts) {
-    const std::vector<std::string> words{"batch", "rate", "epochs"};
-    EXPECT_EQ(nearest_word("bathc", words), "batch");
-    EXPECT_EQ(nearest_word("epoch", words), "epochs");
-    EXPECT_EQ(nearest_word("learning_rate", words), "rate");
-    EXPECT_EQ(nearest_word("zzzzzz", words), "");
-}

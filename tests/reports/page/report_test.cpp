@@ -11,7 +11,7 @@
 #include "reports/page/packed.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/projection.hpp"
-#include "tests/reports/pictures/made_figures.hpp"
+#include "tests/reports/motions/made_motions.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -78,7 +78,7 @@ TEST_F(Report, ACellIsTheMeanOfAllRepeatsOfAllSeeds) {
     // t(0.975, 2) = 4.30265, s = sqrt(7): from any table of Student's distribution
     EXPECT_NEAR(*cell.figures[1].measured->half_width, 4.30265 * std::sqrt(7.0 / 3), 1e-4);
     EXPECT_FALSE(cell.figures[2].measured) << "FIDw is not among the scores";
-    EXPECT_DOUBLE_EQ(*cell.figures[0].paper, 42.01);
+    EXPECT_DOUBLE_EQ(*cell.figures[0].paper.value, 42.01);
     EXPECT_TRUE(measured.notices.empty());
 }
 
@@ -94,6 +94,45 @@ TEST_F(Report, TheBestOfAColumnIsTheHighestAccuracyAndTheLowestDistance) {
     EXPECT_TRUE(gaussian.figures[0].best);
     EXPECT_FALSE(gaussian.figures[1].best);
     EXPECT_TRUE(full.figures[0].paper_best) << "the paper's best is marked on its own";
+}
+
+TEST_F(Report, WhatShouldBeNearRealIsMarkedByItsDistanceFromReal) {
+    const std::vector<PaperTable> papers{
+        read_table("title: Table 9\n"
+                   "caption: c\n"
+                   "source: s\n"
+                   "order: 9\n"
+                   "columns: [{dataset: A, metrics: [diversity, accuracy]}]\n"
+                   "real: real\n"
+                   "rows:\n"
+                   "  real: {A: [7.0, 99.8]}\n"
+                   "  near: {A: [6.9, 90]}\n"
+                   "  far: {A: [7.5, 95 ± 0.5]}\n"
+                   "  lost: {A: not at hand}\n",
+                   "table9.yaml")};
+    const auto run = [](double diversity, double real) {
+        return Json{{"diversity", {{"mean", 0}, {"repeats", {diversity}}}}, {"real", {{"diversity", real}}}};
+    };
+    add("near", "table9/near/A", {run(9, 8)});
+    add("far", "table9/far/A", {run(6.5, 7)});
+    auto measured = read();
+    const auto tables = fill_tables(measured, papers);
+    const auto figures = [&](std::size_t row, std::size_t metric) {
+        return tables[0].rows[row][0].figures[metric];
+    };
+    EXPECT_TRUE(figures(1, 0).paper_best) << "0.1 from the paper's real motions";
+    EXPECT_FALSE(figures(2, 0).paper_best || figures(0, 0).paper_best);
+    EXPECT_TRUE(figures(2, 0).best) << "0.5 from the real motions that it was scored with";
+    EXPECT_FALSE(figures(1, 0).best) << "1 from them";
+    EXPECT_TRUE(figures(2, 1).paper_best) << "real motions do not count";
+    const auto html = html_tables(tables);
+    EXPECT_NE(html.find("nearest to real motions is best\">→"), std::string::npos);
+    EXPECT_NE(html.find(">not at hand<"), std::string::npos);
+    EXPECT_NE(html.find(">95.00 ± 0.50<"), std::string::npos);
+    const auto csv = to_csv(tables);
+    EXPECT_NE(csv.find("\ntable9,far,A,accuracy,not measured,,,0,95,0.5\n"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("\ntable9,lost,A,diversity,not run,,,0,not at hand,\n"), std::string::npos) << csv;
+    EXPECT_NE(to_latex(tables).find("diversity $\\rightarrow$"), std::string::npos);
 }
 
 TEST_F(Report, NothingOfThePapersIsEverTakenForMeasured) {
@@ -196,8 +235,8 @@ TEST_F(Report, CsvHasALineForEveryFigureOfThePaper) {
     const auto csv = to_csv(fill_tables(measured));
     EXPECT_NE(csv.find("\ntable3,full,NTU-1P,fid_mean,measured,5,12.706"), std::string::npos)
         << "t(0.975, 1) = 12.706, s / sqrt(2) = 1";
-    EXPECT_NE(csv.find("\ntable3,fixed PE,NTU-1P,accuracy,not run,,,0,37.57\n"), std::string::npos);
-    // 4 rows of 12, then 4, 6 and 3 rows of 5 and their groups: DESIGN 5
+    EXPECT_NE(csv.find("\ntable3,fixed PE,NTU-1P,accuracy,not run,,,0,37.57,\n"), std::string::npos);
+    // 4 rows of 12, then 4, 6 and 3 rows of 5 and their groups
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 12 + 4 * 9 + 4 * 3 + 6 * 5 + 3 * 9);
 }
 
@@ -233,8 +272,8 @@ TEST(Packed, IsBase64OfLittleEndianNumbers) {
 }
 
 TEST(PackedMotion, ComesBackWithinHalfAStep) {
-    const auto figure = walkers(2, 7);
-    const auto motion = packed_motion(figure, 60, 2);
+    const auto walk = walkers(2, 7);
+    const auto motion = packed_motion(walk, 60, 2);
     EXPECT_EQ(motion["frames"], 4);
     EXPECT_DOUBLE_EQ(motion["fps"].get<double>(), 15);
     const double scale = motion["scale"];
@@ -254,15 +293,15 @@ TEST(PackedMotion, ComesBackWithinHalfAStep) {
         const auto whole = static_cast<std::int16_t>(bytes[2 * i] | bytes[2 * i + 1] << 8);
         const auto frame = i / 150, rest = i % 150;
         EXPECT_NEAR(motion["origin"][i % 3].get<double>() + scale * whole,
-                    figure.joints[2 * frame * 150 + rest], 0.51 * scale);
+                    walk.joints[2 * frame * 150 + rest], 0.51 * scale);
     }
 }
 
 TEST(PackedMotion, ABodyThatIsGoneStaysWhereItWas) {
-    auto figure = walkers(1, 3);
-    figure.seen = {1, 0, 1};
-    for (std::size_t i = 75; i < 150; ++i) figure.joints[i] = 1e30F;
-    const auto motion = packed_motion(figure, 3);
+    auto walk = walkers(1, 3);
+    walk.seen = {1, 0, 1};
+    for (std::size_t i = 75; i < 150; ++i) walk.joints[i] = 1e30F;
+    const auto motion = packed_motion(walk, 3);
     EXPECT_LT(motion["scale"].get<double>(), 1e-3) << "what is not there does not count";
 }
 
@@ -308,10 +347,27 @@ TEST(Curves, JoinLinesOfAnEpochAndPassOverBrokenOnes) {
           "{\"epoch\": 2, \"loss\": 1.5}\n"
           "{\"epoch\": 2, \"accuracy\": 0.25}\n"
           "{\"epoch\": 3, \"lo");
-    const auto curves = read_curves(dir / "run", {"loss", "accuracy"});
-    EXPECT_EQ(curves,
-              Json::parse(R"([{"epoch": 1, "loss": 2.5}, {"epoch": 2, "loss": 1.5, "accuracy": 0.25}])"));
-    EXPECT_EQ(read_curves(dir / "none", {"loss"}), Json::array());
+    const auto curves = read_curves(dir / "run");
+    EXPECT_EQ(curves, Json::parse(R"([{"epoch": 1, "loss": 2.5, "rate": 0.1},
+                                      {"epoch": 2, "loss": 1.5, "accuracy": 0.25}])"));
+    EXPECT_EQ(read_curves(dir / "none"), Json::array());
+}
+
+TEST(Curves, AreChartsOfWhateverWasTrained) {
+    const auto charts = curve_charts(Json::parse(R"([
+        {"epoch": 1, "step": 7, "kl_loss": 3, "reconstruction_loss": 9, "seconds": 2},
+        {"epoch": 2, "step": 14, "kl_loss": 2, "accuracy": 0.25, "train_accuracy": 0.5, "fid_whole": 7, "steps_a_second": 4}
+    ])"),
+                                     "generated motions");
+    EXPECT_EQ(charts["points"], Json::parse(R"([{"epoch": 1, "kl_loss": 3.0, "reconstruction_loss": 9.0},
+        {"epoch": 2, "kl_loss": 2.0, "accuracy": 25.0, "train_accuracy": 50.0, "fid_whole": 7.0}])"));
+    ASSERT_EQ(charts["charts"].size(), 3U) << charts["charts"];
+    EXPECT_EQ(charts["charts"][0]["series"], Json::parse(R"([{"key": "kl_loss", "name": "kl"},
+        {"key": "reconstruction_loss", "name": "reconstruction"}])"));
+    EXPECT_EQ(charts["charts"][1]["unit"], "%");
+    EXPECT_EQ(charts["charts"][1]["series"], Json::parse(R"([{"key": "accuracy", "name": "generated motions"},
+        {"key": "train_accuracy", "name": "train"}])"));
+    EXPECT_EQ(charts["charts"][2]["title"], "FIDw");
 }
 
 TEST(Curves, LongOnesAreThinnedAndKeepTheirEnd) {
@@ -319,7 +375,7 @@ TEST(Curves, LongOnesAreThinnedAndKeepTheirEnd) {
     std::string log;
     for (int i = 1; i <= 2001; ++i) log += "{\"epoch\": " + std::to_string(i) + ", \"loss\": 1}\n";
     write(dir / "run" / "log.jsonl", log);
-    const auto curves = read_curves(dir / "run", {"loss"});
+    const auto curves = read_curves(dir / "run");
     EXPECT_LE(curves.size(), 501U);
     EXPECT_EQ(curves.front()["epoch"], 1);
     EXPECT_EQ(curves.back()["epoch"], 2001);

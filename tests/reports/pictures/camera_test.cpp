@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/reports/pictures/made_figures.hpp"
+#include "tests/reports/motions/made_motions.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -12,17 +12,17 @@ using testing::walkers;
 
 const cv::Rect2d cell(10, 10, 200, 300);
 
-cv::Vec3d joint(const Figure& figure, std::size_t t, std::size_t p, std::size_t j) {
-    const float* x = figure.at(t, p, j);
+cv::Vec3d joint(const JointMotion& motion, std::size_t t, std::size_t p, std::size_t j) {
+    const float* x = motion.at(t, p, j);
     return {x[0], x[1], x[2]};
 }
 
-void expect_inside(const Figure& figure, const View& view) {
-    const Framing framing(figure, view);
-    for (std::size_t t = 0; t < figure.frames; ++t)
-        for (std::size_t p = 0; p < figure.persons; ++p)
-            for (std::size_t j = 0; j < figure.topology.joints(); ++j) {
-                const auto seen = framing.camera(t, cell).project(joint(figure, t, p, j));
+void expect_inside(const JointMotion& motion, const View& view) {
+    const Framing framing(motion, view);
+    for (std::size_t t = 0; t < motion.frames; ++t)
+        for (std::size_t p = 0; p < motion.persons; ++p)
+            for (std::size_t j = 0; j < motion.topology.joints(); ++j) {
+                const auto seen = framing.camera(t, cell).project(joint(motion, t, p, j));
                 ASSERT_TRUE(cell.contains(cv::Point2d(seen.x, seen.y)))
                     << t << " " << p << " " << j << ": " << seen.x << " " << seen.y;
             }
@@ -47,32 +47,32 @@ TEST(Framing, KeepsEveryJointInside) {
 }
 
 TEST(Framing, GoesAlongWithWhoTravels) {
-    auto figure = walkers(1, 120);
-    for (std::size_t i = 0; i < figure.joints.size(); i += 3)
-        figure.joints[i] += static_cast<float>(i / 75) * 0.05F;  // 6 m to the side in 4 s
-    const Framing still(walkers(1, 120), {}), moving(figure, {});
+    auto motion = walkers(1, 120);
+    for (std::size_t i = 0; i < motion.joints.size(); i += 3)
+        motion.joints[i] += static_cast<float>(i / 75) * 0.05F;  // 6 m to the side in 4 s
+    const Framing still(walkers(1, 120), {}), moving(motion, {});
     EXPECT_FALSE(still.follows());
     EXPECT_TRUE(moving.follows());
     EXPECT_GT(moving.camera(0, cell).scale(), 0.6 * still.camera(0, cell).scale());
-    expect_inside(figure, {});
+    expect_inside(motion, {});
 }
 
 TEST(Framing, OneLostJointDoesNotShrinkTheRest) {
-    auto figure = walkers(1, 100);
-    const auto scale = Framing(figure, {}).camera(0, cell).scale();
-    figure.joints[(50 * 25 + 7) * 3] = 500;
-    EXPECT_GT(Framing(figure, {}).camera(0, cell).scale(), 0.4 * scale);
+    auto motion = walkers(1, 100);
+    const auto scale = Framing(motion, {}).camera(0, cell).scale();
+    motion.joints[(50 * 25 + 7) * 3] = 500;
+    EXPECT_GT(Framing(motion, {}).camera(0, cell).scale(), 0.4 * scale);
 }
 
 TEST(Framing, FrontLooksIntoTheFace) {
-    const auto figure = walkers(1, 10);  // faces +z, its left hand towards +x
-    const auto camera = Framing(figure, parse_view("front")).camera(0, cell);
-    const auto left = camera.project(joint(figure, 0, 0, 4)), right = camera.project(joint(figure, 0, 0, 8));
+    const auto motion = walkers(1, 10);  // faces +z, its left hand towards +x
+    const auto camera = Framing(motion, parse_view("front")).camera(0, cell);
+    const auto left = camera.project(joint(motion, 0, 0, 4)), right = camera.project(joint(motion, 0, 0, 8));
     EXPECT_GT(left.x, right.x + 20);  // as one sees another person's left hand: to the right
-    EXPECT_GT(camera.project(joint(figure, 0, 0, 15)).nearness,
-              camera.project(joint(figure, 0, 0, 14)).nearness);
-    EXPECT_LT(camera.project(joint(figure, 0, 0, 3)).y,
-              camera.project(joint(figure, 0, 0, 0)).y);  // heads are up
+    EXPECT_GT(camera.project(joint(motion, 0, 0, 15)).nearness,
+              camera.project(joint(motion, 0, 0, 14)).nearness);
+    EXPECT_LT(camera.project(joint(motion, 0, 0, 3)).y,
+              camera.project(joint(motion, 0, 0, 0)).y);  // heads are up
 }
 
 TEST(Framing, TurnsWithThePerson) {
@@ -89,22 +89,22 @@ TEST(Framing, TurnsWithThePerson) {
 }
 
 TEST(Framing, TwoFaceToFaceAreSeenFromTheSide) {
-    auto figure = walkers(2, 10);
+    auto motion = walkers(2, 10);
     for (std::size_t t = 0; t < 10; ++t)
         for (std::size_t j = 0; j < 25; ++j) {
-            float* second = &figure.joints[((t * 2 + 1) * 25 + j) * 3];
+            float* second = &motion.joints[((t * 2 + 1) * 25 + j) * 3];
             second[0] = 1.2F - second[0];  // half a turn on the spot, then 1.5 m in front of the first
             second[2] = 1.5F - second[2];
         }
-    const auto camera = Framing(figure, parse_view("front")).camera(0, cell);
-    const auto a = camera.project(joint(figure, 0, 0, 0)), b = camera.project(joint(figure, 0, 1, 0));
+    const auto camera = Framing(motion, parse_view("front")).camera(0, cell);
+    const auto a = camera.project(joint(motion, 0, 0, 0)), b = camera.project(joint(motion, 0, 1, 0));
     EXPECT_NEAR(std::abs(a.x - b.x), 1.5 * camera.scale(), 0.1 * camera.scale());
 }
 
 TEST(Camera, FindsTheFloorUnderAPixel) {
-    const auto figure = walkers(1, 10);
+    const auto motion = walkers(1, 10);
     for (const char* view : {"30,15", "-100,60", "top"}) {
-        const auto camera = Framing(figure, parse_view(view)).camera(0, cell);
+        const auto camera = Framing(motion, parse_view(view)).camera(0, cell);
         const cv::Vec3d point(0.3, 0.1, -0.7);
         const auto seen = camera.project(point);
         EXPECT_LT(cv::norm(camera.on_floor({seen.x, seen.y}, 0.1) - point), 1e-9) << view;

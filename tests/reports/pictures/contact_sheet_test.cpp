@@ -8,7 +8,7 @@
 #include "reports/pictures/render.hpp"
 #include "reports/pictures/style.hpp"
 #include "reports/pictures/text.hpp"
-#include "tests/reports/pictures/made_figures.hpp"
+#include "tests/reports/motions/made_motions.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -39,12 +39,12 @@ bool looks_like(const cv::Vec3b& pixel, int rgb) {
 }
 
 TEST(Stage, LeftAndRightHaveTheirColours) {
-    const auto figure = walkers(1, 10);
-    const Stage stage(figure, parse_view("front"));
+    const auto motion = walkers(1, 10);
+    const Stage stage(motion, parse_view("front"));
     auto cell = blank(300, 400);
     stage.draw(cell, 0);
     const auto pixel = [&](std::size_t j) {
-        const float* x = figure.at(0, 0, j);
+        const float* x = motion.at(0, 0, j);
         const auto seen = stage.camera(0, cell.size()).project({x[0], x[1], x[2]});
         return cell.at<cv::Vec3b>(static_cast<int>(seen.y), static_cast<int>(seen.x));
     };
@@ -57,12 +57,12 @@ TEST(Stage, LeftAndRightHaveTheirColours) {
 }
 
 TEST(Stage, PersonsHaveTheirColours) {
-    const auto figure = walkers(2, 10);
-    const Stage stage(figure, parse_view("front"));
+    const auto motion = walkers(2, 10);
+    const Stage stage(motion, parse_view("front"));
     auto cell = blank(500, 400);
     stage.draw(cell, 0);
     for (std::size_t p = 0; p < 2; ++p) {
-        const float* head = figure.at(0, p, 3);
+        const float* head = motion.at(0, p, 3);
         const auto seen = stage.camera(0, cell.size()).project({head[0], head[1], head[2]});
         EXPECT_TRUE(looks_like(cell.at<cv::Vec3b>(static_cast<int>(seen.y), static_cast<int>(seen.x)),
                                style::body(p).middle));
@@ -71,8 +71,9 @@ TEST(Stage, PersonsHaveTheirColours) {
 
 TEST(Stage, NearLimbsHideFarOnes) {
     // Two bars, one behind the other, and no names to go by: the second person stands nearer.
-    Figure figure{"bars", {{"a", "b"}, {-1, 0}}, 2, 1, 30, {-1, 1, 0, 1, 1, 0, -1, 1, 1, 1, 1, 1}, {}, {}};
-    const Stage stage(figure, parse_view("90,0"));  // along the line of persons
+    JointMotion motion{"bars", {{"a", "b"}, {-1, 0}}, 2, 1, 30, {-1, 1, 0, 1, 1, 0, -1, 1, 1, 1, 1, 1}, {},
+                       {}};
+    const Stage stage(motion, parse_view("90,0"));  // along the line of persons
     auto cell = blank(200, 200);
     stage.draw(cell, 0);
     const auto eye = stage.camera(0, cell.size());
@@ -83,9 +84,9 @@ TEST(Stage, NearLimbsHideFarOnes) {
 }
 
 TEST(Stage, AbsentBodiesAreNotDrawn) {
-    auto figure = walkers(1, 2);
-    figure.seen = {1, 0};
-    const Stage stage(figure, parse_view("0,0"));  // level: without floor and shadow
+    auto motion = walkers(1, 2);
+    motion.seen = {1, 0};
+    const Stage stage(motion, parse_view("0,0"));  // level: without floor and shadow
     auto there = blank(100, 150), gone = blank(100, 150);
     stage.draw(there, 0);
     stage.draw(gone, 1);
@@ -94,25 +95,25 @@ TEST(Stage, AbsentBodiesAreNotDrawn) {
 }
 
 TEST(Stage, DrawsAnySkeleton) {
-    const Figure dot{"dot", {{"joint"}, {-1}}, 1, 2, 30, {0, 0, 0, 0, 0, 0}, {}, {}};
-    const Figure folded{
+    const JointMotion dot{"dot", {{"joint"}, {-1}}, 1, 2, 30, {0, 0, 0, 0, 0, 0}, {}, {}};
+    const JointMotion folded{
         "all in one place", {{"a", "b", "Head"}, {-1, 0, 1}}, 1, 1, 30, std::vector<float>(9, 3.0F), {}, {}};
-    for (const auto* figure : {&dot, &folded}) {
+    for (const auto* motion : {&dot, &folded}) {
         auto cell = blank(60, 80);
-        Stage(*figure, {}).draw(cell, 0);
-        EXPECT_GT(difference(cell, blank(60, 80)), 0.01) << figure->title;
+        Stage(*motion, {}).draw(cell, 0);
+        EXPECT_GT(difference(cell, blank(60, 80)), 0.01) << motion->title;
     }
 }
 
 TEST(Stage, SurvivesAJointThatFliesOff) {
-    auto figure = walkers(1, 60);
-    figure.joints[(30 * 25 + 7) * 3] = 9e4F;
+    auto motion = walkers(1, 60);
+    motion.joints[(30 * 25 + 7) * 3] = 9e4F;
     auto cell = blank(100, 150);
-    Stage(figure, {}).draw(cell, 30);
+    Stage(motion, {}).draw(cell, 30);
     EXPECT_GT(difference(cell, blank(100, 150)), 0.02);
 }
 
-TEST(ContactSheet, HasARowAFigureAndAColumnASnapshot) {
+TEST(ContactSheet, HasARowAMotionAndAColumnASnapshot) {
     const auto one = contact_sheet({walkers(1, 30)}, small());
     const auto two = contact_sheet({walkers(1, 30), walkers(1, 30)}, small());
     auto layout = small();
@@ -137,15 +138,15 @@ TEST(ContactSheet, SnapshotsDiffer) {
 }
 
 TEST(ContactSheet, TakesAnyTitle) {
-    auto figure = walkers(1, 3);
+    auto motion = walkers(1, 3);
     std::string every_byte;
     for (int c = 1; c < 256; ++c) every_byte += static_cast<char>(c);
     for (const auto& title : {std::string(100000, 'W'), std::string("喝水 · übergeben · пить · 💧"),
                               every_byte, std::string("\xff\xfe\xe2\x80"), std::string("a\nb\tc"),
                               std::string(50000, '\xe2'), std::string()}) {
-        figure.title = title;
-        EXPECT_FALSE(contact_sheet({figure}, small()).empty());
-        EXPECT_FALSE(animation({figure}, small()).draw(1).empty());
+        motion.title = title;
+        EXPECT_FALSE(contact_sheet({motion}, small()).empty());
+        EXPECT_FALSE(animation({motion}, small()).draw(1).empty());
     }
 }
 

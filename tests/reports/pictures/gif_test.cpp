@@ -8,7 +8,7 @@
 
 #include "reports/pictures/palette.hpp"
 #include "reports/pictures/render.hpp"
-#include "tests/reports/pictures/made_figures.hpp"
+#include "tests/reports/motions/made_motions.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -65,8 +65,8 @@ Layout small() {
 
 TEST(Gif, MovesAndLoops) {
     const Folder folder;
-    const std::vector<Figure> figures{walkers(1, 20), walkers(2, 20)};
-    render(figures, small(), folder / "walk.gif");
+    const std::vector<JointMotion> motions{walkers(1, 20), walkers(2, 20)};
+    render(motions, small(), folder / "walk.gif");
     const Played played(folder / "walk.gif");
     ASSERT_EQ(played.frames.size(), 20U);
     EXPECT_TRUE(played.loops);
@@ -75,7 +75,7 @@ TEST(Gif, MovesAndLoops) {
     EXPECT_EQ(folder.files(), 1U);
 
     // What is shown is what was drawn, but for the palette.
-    const auto film = animation(figures, small());
+    const auto film = animation(motions, small());
     for (const std::size_t i : {0, 7, 19}) {
         const auto drawn = film.draw(i);
         ASSERT_EQ(drawn.size(), played.frames[i].size());

@@ -5,7 +5,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "reports/pictures/render.hpp"
-#include "tests/reports/pictures/made_figures.hpp"
+#include "tests/reports/motions/made_motions.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -18,12 +18,12 @@ TEST(Video, PlaysWithEveryFrame) {
     const Folder folder;
     Layout layout;
     layout.size = 91;  // odd on purpose
-    const std::vector<Figure> figures{walkers(1, 15), walkers(2, 25)};
-    const auto film = animation(figures, layout);
+    const std::vector<JointMotion> motions{walkers(1, 15), walkers(2, 25)};
+    const auto film = animation(motions, layout);
     EXPECT_EQ(film.size.width % 2, 0);
     EXPECT_EQ(film.size.height % 2, 0);
     std::size_t watched = 0;
-    render(figures, layout, folder / "walk.mp4", [&](std::size_t done, std::size_t all) {
+    render(motions, layout, folder / "walk.mp4", [&](std::size_t done, std::size_t all) {
         EXPECT_EQ(all, 25U);
         EXPECT_EQ(done, ++watched);
     });
@@ -57,10 +57,10 @@ TEST(Video, TakesTheFrameRateAskedFor) {
 
 TEST(Video, FailsWholeOrNotAtAll) {
     const Folder folder;
-    const auto figure = walkers(1, 2);
-    EXPECT_NE(error_of([&] { render({figure}, {}, folder / "none/a.mp4"); }).find("make it first"),
+    const auto motion = walkers(1, 2);
+    EXPECT_NE(error_of([&] { render({motion}, {}, folder / "none/a.mp4"); }).find("make it first"),
               std::string::npos);
-    EXPECT_NE(error_of([&] { render({figure}, {}, "/proc/a.mp4"); }).find("/proc/a.mp4: cannot be written"),
+    EXPECT_NE(error_of([&] { render({motion}, {}, "/proc/a.mp4"); }).find("/proc/a.mp4: cannot be written"),
               std::string::npos);
     EXPECT_NE(error_of([&] { render({walkers(1, 0)}, {}, folder / "a.mp4"); }).find("no frames"),
               std::string::npos);

@@ -1,4 +1,4 @@
-#include "reports/figures/gather.hpp"
+#include "reports/motions/gather.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "ingest/dataset/classes.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/motions_file.hpp"
 #include "ingest/formats/ntu/skeleton_file.hpp"
@@ -61,26 +62,11 @@ std::vector<std::size_t> chosen(const std::vector<Candidate>& candidates, const 
     return spread(some, some.size());
 }
 
-/// The class that --class asks for: its name, or its number counted from 0.
-std::uint32_t class_called(const std::string& text, const std::vector<std::string>& classes,
-                           const std::string& where) {
-    if (const auto found = std::ranges::find(classes, text); found != classes.end())
-        return static_cast<std::uint32_t>(found - classes.begin());
-    const bool number =
-        !text.empty() && text.size() < 7 && text.find_first_not_of("0123456789") == std::string::npos;
-    if (number && (classes.empty() || std::stoul(text) < classes.size()))
-        return static_cast<std::uint32_t>(std::stoul(text));
-    throw Error("{} has no class '{}'; give a name or a number from 0{}", where, text,
-                classes.empty() ? ""
-                                : fmt::format(" to {} ('{}' .. '{}')", classes.size() - 1, classes.front(),
-                                              classes.back()));
-}
-
 /// Those of `candidates` that --class lets pass; all without it.
 std::vector<Candidate> of_class(std::vector<Candidate> candidates, const Wanted& wanted,
                                 const std::vector<std::string>& classes, const std::string& where) {
     if (wanted.label.empty()) return candidates;
-    const auto label = class_called(wanted.label, classes, where);
+    const auto label = ingest::label_called(wanted.label, classes, where);
     std::erase_if(candidates, [&](const Candidate& c) { return c.label != label; });
     if (candidates.empty()) throw Error("{} has no motion of class '{}' to draw", where, wanted.label);
     return candidates;
@@ -100,48 +86,65 @@ std::vector<std::size_t> picks_of(const ingest::Dataset& dataset, const Wanted& 
     return chosen(of_class(std::move(candidates), wanted, dataset.header().classes, where), wanted, count);
 }
 
-Figure figure_of_clip(const ingest::Dataset& dataset, std::size_t clip) {
+JointMotion motion_of_clip(const ingest::Dataset& dataset, std::size_t clip) {
     const auto& header = dataset.header();
     const auto& entry = dataset.clips()[clip];
-    auto figure = figure_of(dataset.motion(clip), dataset.body(clip), header.fps,
-                            title_of(entry.name, entry.label, header.classes));
-    figure.label = entry.label;
-    return figure;
+    auto motion = joint_motion(dataset.motion(clip), dataset.body(clip), header.fps,
+                               title_of(entry.name, entry.label, header.classes));
+    motion.label = entry.label;
+    return motion;
 }
 
-std::vector<Figure> figures_by_name(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
-                                    const std::vector<std::string>& names) {
-    std::vector<Figure> figures;
+std::vector<JointMotion> motions_by_name(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
+                                         const std::vector<std::string>& names) {
+    std::vector<JointMotion> motions;
     for (const auto& name : names) {
-        const auto before = figures.size();
+        const auto before = motions.size();
         for (const auto& dataset : datasets)
-            if (const auto clip = dataset.find(name)) figures.push_back(figure_of_clip(dataset, *clip));
-        if (figures.size() == before)
+            if (const auto clip = dataset.find(name)) motions.push_back(motion_of_clip(dataset, *clip));
+        if (motions.size() == before)
             throw Error("{} has no clip '{}'; its clips are called as in '{}'", path.string(), name,
                         datasets[0].clips().empty() ? "" : datasets[0].clips()[0].name);
     }
-    return figures;
+    return motions;
 }
 
-std::vector<Figure> figures_of_datasets(const fs::path& path, const Wanted& wanted) {
+/// Throws Error with the class of any of the datasets that was probably meant.
+void refuse_class(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
+                  const std::string& said) {
+    std::vector<std::string> classes;
+    for (const auto& dataset : datasets)
+        classes.insert(classes.end(), dataset.header().classes.begin(), dataset.header().classes.end());
+    ingest::label_called(said, classes, path.string());
+}
+
+std::vector<JointMotion> motions_of_datasets(const fs::path& path, const Wanted& wanted) {
     const auto folders = ingest::datasets_at(path);
     std::vector<ingest::Dataset> datasets(folders.begin(), folders.end());
-    if (!wanted.clips.empty()) return figures_by_name(datasets, path, wanted.clips);
+    if (!wanted.clips.empty()) return motions_by_name(datasets, path, wanted.clips);
 
-    // A class by name may be in one of the datasets of a folder only, as handshaking is in ntu-2p.
+    // A class by name may be in one of the datasets of a folder only, as shaking hands is in ntu-2p.
     const auto named = [&](const ingest::Dataset& d) {
-        return std::ranges::count(d.header().classes, wanted.label) > 0;
+        try {
+            ingest::label_called(wanted.label, d.header().classes, "");
+            return true;
+        } catch (const Error&) {
+            return false;
+        }
     };
-    if (std::ranges::any_of(datasets, named)) std::erase_if(datasets, std::not_fn(named));
+    if (std::ranges::any_of(datasets, named))
+        std::erase_if(datasets, std::not_fn(named));
+    else if (!wanted.label.empty())
+        refuse_class(datasets, path, wanted.label);
 
-    std::vector<Figure> figures;
+    std::vector<JointMotion> motions;
     for (std::size_t d = 0; d < datasets.size(); ++d) {
         const auto count = wanted.count * (d + 1) / datasets.size() - wanted.count * d / datasets.size();
         if (count == 0) continue;
         for (const auto clip : picks_of(datasets[d], wanted, count))
-            figures.push_back(figure_of_clip(datasets[d], clip));
+            motions.push_back(motion_of_clip(datasets[d], clip));
     }
-    return figures;
+    return motions;
 }
 
 /// A motions file and what it is drawn with; the dataset that told it, if one did.
@@ -206,7 +209,7 @@ std::optional<std::uint32_t> label_of(const std::string& name, const Drawn& draw
     return static_cast<std::uint32_t>(std::stoul(digits) - 1);
 }
 
-std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wanted) {
+std::vector<JointMotion> motions_of_motions(const fs::path& path, const Wanted& wanted) {
     if (wanted.split != "all")
         throw Error("{} is a motions file and has no splits; leave --split out", path.string());
     const auto drawn = drawn_from(path, wanted);
@@ -227,34 +230,34 @@ std::vector<Figure> figures_of_motions(const fs::path& path, const Wanted& wante
         picks = chosen(of_class(std::move(candidates), wanted, subjects.classes, path.string()), wanted,
                        wanted.count);
     }
-    std::vector<Figure> figures;
+    std::vector<JointMotion> motions;
     for (const auto i : picks) {
         const auto motion = drawn.file.read(names[i]);
         const auto label = label_of(names[i], drawn);
-        figures.push_back(
-            figure_of(motion, subjects, subjects.fps, title_of(names[i], label, subjects.classes)));
-        figures.back().label = label;
+        motions.push_back(
+            joint_motion(motion, subjects, subjects.fps, title_of(names[i], label, subjects.classes)));
+        motions.back().label = label;
     }
-    return figures;
+    return motions;
 }
 
 /// A raw capture is drawn as it was recorded: bodies appear and vanish, and nothing is smoothed.
-Figure figure_of_raw(const fs::path& path) {
+JointMotion motion_of_raw(const fs::path& path) {
     std::vector<char> text;
     const auto read = ingest::read_skeleton(read_text(path, text, std::uint64_t{1} << 27));
     if (const auto* why = std::get_if<ingest::Rejection>(&read))
         throw Error("{}: {}", path.string(), why->reason);
-    return figure_of(std::get<ingest::SkeletonFile>(read), path.stem().string() + ", raw");
+    return joint_motion(std::get<ingest::SkeletonFile>(read), path.stem().string() + ", raw");
 }
 
 }  // namespace
 
-std::vector<Figure> gather(const fs::path& path, const Wanted& wanted) {
+std::vector<JointMotion> gather(const fs::path& path, const Wanted& wanted) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) throw Error("{}: no such file or folder", path.string());
-    if (fs::is_directory(path, ignored)) return figures_of_datasets(path, wanted);
-    if (path.extension() == ".skeleton") return {figure_of_raw(path)};
-    return figures_of_motions(path, wanted);
+    if (fs::is_directory(path, ignored)) return motions_of_datasets(path, wanted);
+    if (path.extension() == ".skeleton") return {motion_of_raw(path)};
+    return motions_of_motions(path, wanted);
 }
 
 }  // namespace actformer::reports

@@ -1,12 +1,12 @@
-#include "reports/sweep/reading.hpp"
+#include "base/text/loose_json.hpp"
 
 #include <fstream>
 
-namespace actformer::reports {
+namespace actformer::loose {
 
 using Json = nlohmann::ordered_json;
 
-nlohmann::ordered_json read_json(const std::filesystem::path& path) {
+nlohmann::ordered_json read(const std::filesystem::path& path) {
     std::ifstream file(path);
     return Json::parse(file, nullptr, false);
 }
@@ -28,4 +28,4 @@ std::string text(const Json& object, const char* key) {
     return found.is_string() ? found.get<std::string>() : "";
 }
 
-}  // namespace actformer::reports
+}  // namespace actformer::loose

@@ -1,4 +1,4 @@
-// Figures for the tests: bodies that walk on the spot, in numbers anyone can follow.
+// Motions for the tests: bodies that walk on the spot, in numbers anyone can follow.
 #pragma once
 
 #include <stdlib.h>
@@ -10,21 +10,21 @@
 #include <stdexcept>
 #include <string>
 
-#include "reports/figures/figure.hpp"
+#include "reports/motions/joint_motion.hpp"
 
 namespace actformer::reports::testing {
 
 /// `persons` adults with NTU's joints, 1.2 m apart along x, facing +z (so their left is towards +x), swinging
 /// arms and legs.
-inline Figure walkers(std::uint32_t persons, std::uint32_t frames, double fps = 30) {
-    Figure figure{"walk · S001C001P001R001A001", ingest::ntu25(), persons, frames, fps, {}, {}, {}};
-    const auto lengths = usual_bone_lengths(figure.topology);
+inline JointMotion walkers(std::uint32_t persons, std::uint32_t frames, double fps = 30) {
+    JointMotion motion{"walk · S001C001P001R001A001", ingest::ntu25(), persons, frames, fps, {}, {}, {}};
+    const auto lengths = usual_bone_lengths(motion.topology);
     for (std::uint32_t t = 0; t < frames; ++t)
         for (std::uint32_t p = 0; p < persons; ++p) {
             const double swing = 0.6 * std::sin(0.25 * t + p);
             std::array<cv::Vec3d, 25> at{};
-            for (const auto j : figure.topology.order()) {
-                const auto& name = figure.topology.names[j];
+            for (const auto j : motion.topology.order()) {
+                const auto& name = motion.topology.names[j];
                 const bool left = name.starts_with("left");
                 const bool arm = (j >= 5 && j <= 7) || (j >= 9 && j <= 11) || j >= 21,
                            leg = j >= 12 && j <= 19;
@@ -37,14 +37,14 @@ inline Figure walkers(std::uint32_t persons, std::uint32_t frames, double fps = 
                     limb = name.ends_with("foot") ? cv::Vec3d(0, -0.2, 1)
                                                   : cv::Vec3d(0, -1, left ? swing : -swing);
                 }
-                const int parent = figure.topology.parents[j];
+                const int parent = motion.topology.parents[j];
                 at[j] = parent < 0 ? cv::Vec3d(1.2 * p, 0.95, 0)
                                    : at[parent] + limb * (lengths[j] / cv::norm(limb));
             }
             for (const auto& x : at)
-                for (int d = 0; d < 3; ++d) figure.joints.push_back(static_cast<float>(x[d]));
+                for (int d = 0; d < 3; ++d) motion.joints.push_back(static_cast<float>(x[d]));
         }
-    return figure;
+    return motion;
 }
 
 /// A fresh folder that goes away with the test.

@@ -12,7 +12,7 @@
 namespace actformer::reports {
 
 /// joints (frames, persons, K, 3) float32 in metres, y up, right-handed, for K joints of `topology`.
-struct Figure {
+struct JointMotion {
     std::string title;  ///< UTF-8; may be empty, and is cut to fit
     ingest::Topology topology;
     std::uint32_t persons = 0, frames = 0;
@@ -30,19 +30,20 @@ struct Figure {
     double seconds() const { return frames / fps; }
 };
 
-/// The most persons that one figure may have: beyond it, nobody could tell them apart.
+/// The most persons that one motion may have: beyond it, nobody could tell them apart.
 constexpr std::uint32_t most_persons = 64;
 
-/// Throws Error naming the figure and the place where it cannot be drawn: no frames, nobody in sight, too
+/// Throws Error naming the motion and the place where it cannot be drawn: no frames, nobody in sight, too
 /// many persons, sizes that disagree, or (of visible bodies) a joint that is not a number or further than 100
 /// km away.
-void check(const Figure& figure);
+void check(const JointMotion& motion);
 
 /// Throws Error as check() does, and where the motion does not fit the body model.
-Figure figure_of(const ingest::Motion& motion, const ingest::BodyModel& body, double fps, std::string title);
+JointMotion joint_motion(const ingest::Motion& motion, const ingest::BodyModel& body, double fps,
+                         std::string title);
 
 /// A raw capture, every body in it a person that is seen in some frames. Throws Error as check() does.
-Figure figure_of(const ingest::SkeletonFile& file, std::string title);
+JointMotion joint_motion(const ingest::SkeletonFile& file, std::string title);
 
 /// (K) lengths in metres to draw a body whose own are unknown: an adult's for NTU's 25 joints, else 0.2 each;
 /// the root's is 0.

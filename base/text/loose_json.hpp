@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-namespace actformer::reports {
+namespace actformer::loose {
 
 /// What the file says; discarded (neither object nor list) where it cannot be read or is no JSON.
-nlohmann::ordered_json read_json(const std::filesystem::path& path);
+nlohmann::ordered_json read(const std::filesystem::path& path);
 
 /// The member of an object; null where there is none. Refers into `object`.
 const nlohmann::ordered_json& member(const nlohmann::ordered_json& object, const char* key);
@@ -19,4 +19,4 @@ const nlohmann::ordered_json& list(const nlohmann::ordered_json& object, const c
 /// The member where it is a text, else an empty one.
 std::string text(const nlohmann::ordered_json& object, const char* key);
 
-}  // namespace actformer::reports
+}  // namespace actformer::loose

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "reports/figures/figure.hpp"
+#include "reports/motions/joint_motion.hpp"
 
 namespace actformer::reports {
 
 struct Wanted {
     std::vector<std::string> clips;  ///< by name; empty: picked over the classes
     std::string split = "all";       ///< of datasets
-    std::string label;               ///< a class's name or its number from 0; empty: any
+    std::string label;               ///< a class, as ingest::label_called takes it; empty: any
     std::size_t count = 6;           ///< motions to pick
     std::size_t per_class = 0;       ///< of every class, in its place; 0 picks `count` in all
     std::filesystem::path
@@ -20,6 +20,6 @@ struct Wanted {
 };
 
 /// The motions wanted of what lies at `path`. Throws Error naming `path` and what it lacks.
-std::vector<Figure> gather(const std::filesystem::path& path, const Wanted& wanted);
+std::vector<JointMotion> gather(const std::filesystem::path& path, const Wanted& wanted);
 
 }  // namespace actformer::reports

@@ -1,0 +1,110 @@
+#include "cli/sweep_jobs.hpp"
+
+#include <fmt/format.h>
+
+#include "base/process/process.hpp"
+#include "reports/sweep/plan.hpp"
+
+namespace actformer::cli {
+namespace {
+
+using namespace reports;
+using Words = std::vector<std::string>;
+
+/// Stands for actformer, so that a job is the same wherever the program lies.
+const std::string program = "{program}";
+
+/// `option` and its value, where there is one.
+void add_option(Words& words, const char* option, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {option, value});
+}
+
+/// The commands that do a job's work, one after another. What they say is part of the job's fingerprint: other words make work that was
+/// done before begin anew.
+struct Commands {
+    std::vector<Words> operator()(const IngestWork& work) const {
+        std::vector<Words> out;
+        Words ingest{program, "ingest", work.format};
+        if (work.clips > 0) {
+            out.push_back({program, "synth", work.format, "-o", work.synthetic, "--clips",
+                           std::to_string(work.clips), "--seed", std::to_string(work.seed)});
+            add_option(out[0], "--actions", work.actions);
+            ingest.push_back(work.synthetic);
+        }
+        ingest.insert(ingest.end(), work.raw.begin(), work.raw.end());
+        ingest.insert(ingest.end(), {"-o", work.out});
+        ingest.insert(ingest.end(), work.arguments.begin(), work.arguments.end());
+        out.push_back(std::move(ingest));
+        return out;
+    }
+
+    std::vector<Words> operator()(const TrainingWork& work) const {
+        Words words{program, "train", work.network, "-c", work.config, "--data", work.data, "-o", work.out};
+        for (const auto& [key, value] : work.set) words.push_back(key + "=" + value);
+        return {words};
+    }
+
+    std::vector<Words> operator()(const GenerationWork& work) const {
+        Words words{program,       "generate",
+                    "--generator", work.generator,
+                    "-o",          work.out,
+                    "--per-class", std::to_string(work.per_class),
+                    "--seed",      std::to_string(work.seed)};
+        add_option(words, "--device", work.device);
+        return {words};
+    }
+
+    std::vector<Words> operator()(const ScoringWork& work) const {
+        Words words{program,   "score",   "--recogniser", work.recogniser, "--real",
+                    work.data, "--split", work.split,     "--window",      std::to_string(work.window)};
+        add_option(words, "--single-recogniser", work.single_recogniser);
+        add_option(words, "--device", work.device);
+        if (work.motions.empty()) {
+            words.insert(words.end(),
+                         {"--generator", work.generator, "--repeats", std::to_string(work.repeats),
+                          "--per-class", std::to_string(work.per_class), "--program", program});
+            add_option(words, "--generate-on", work.generate_on);
+        } else {
+            words.emplace_back("--generated");
+            words.insert(words.end(), work.motions.begin(), work.motions.end());
+        }
+        words.insert(words.end(), {"-o", work.out, "--keep-features", work.features});
+        return {words};
+    }
+
+    std::vector<Words> operator()(const MissingWork& work) const { return {{work.what, work.path}}; }
+};
+
+}  // namespace
+
+std::vector<std::string> SweepJobs::identity(const Work& work) const {
+    Words out;
+    for (const auto& words : std::visit(Commands{}, work)) out.insert(out.end(), words.begin(), words.end());
+    return out;
+}
+
+std::vector<std::vector<std::string>> SweepJobs::commands(const Job& job) const {
+    auto out = std::visit(Commands{}, job.work);
+    for (auto& words : out)
+        for (auto& word : words) word = word == program ? program_ : filled_in(word, out_, job);
+    return out;
+}
+
+std::vector<std::string> SweepJobs::command_lines(const Job& job) const {
+    std::vector<std::string> lines;
+    for (const auto& words : commands(job)) lines.push_back(command_line(words));
+    return lines;
+}
+
+std::string SweepJobs::run(const Job& job, const std::filesystem::path& log) const {
+    for (const auto& words : commands(job)) {
+        const auto result = run_process(words, log);
+        if (result.exit != 0)
+            return result.last_line.empty()
+                       ? fmt::format("{}: exit code {}", command_line(words), result.exit)
+                       : result.last_line;
+    }
+    return {};
+}
+
+}  // namespace actformer::cli

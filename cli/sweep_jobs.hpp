@@ -1,0 +1,30 @@
+// A sweep's jobs as commands of actformer.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reports/sweep/job.hpp"
+
+namespace actformer::cli {
+
+class SweepJobs : public reports::JobRunner {
+  public:
+    /// `program` is the actformer that works, `out` the sweep's folder.
+    SweepJobs(std::string program, std::filesystem::path out)
+        : program_(std::move(program)), out_(std::move(out)) {}
+
+    std::vector<std::string> identity(const reports::Work& work) const override;
+    std::vector<std::string> command_lines(const reports::Job& job) const override;
+    std::string run(const reports::Job& job, const std::filesystem::path& log) const override;
+
+  private:
+    /// The commands one after another, with all paths put in.
+    std::vector<std::vector<std::string>> commands(const reports::Job& job) const;
+
+    std::string program_;
+    std::filesystem::path out_;
+};
+
+}  // namespace actformer::cli

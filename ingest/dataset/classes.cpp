@@ -1,0 +1,60 @@
+#include "ingest/dataset/classes.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/text/nearest_word.hpp"
+#include "base/text/printable.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+/// "7", "A007", "a7"
+std::optional<std::uint32_t> number_in(std::string_view said) {
+    if (said.starts_with('A') || said.starts_with('a')) said.remove_prefix(1);
+    std::uint32_t number = 0;
+    const auto [end, error] = std::from_chars(said.data(), said.data() + said.size(), number);
+    if (said.empty() || error != std::errc() || end != said.data() + said.size()) return {};
+    return number;
+}
+
+/// The class of that name; of several that differ in case only, the one written so.
+std::optional<std::uint32_t> named(const std::string& said, const std::vector<std::string>& classes) {
+    auto found = std::ranges::find(classes, said);
+    if (found == classes.end())
+        found = std::ranges::find(classes, lower(said), [](const std::string& name) { return lower(name); });
+    if (found == classes.end()) return {};
+    return static_cast<std::uint32_t>(found - classes.begin());
+}
+
+}  // namespace
+
+std::uint32_t label_called(const std::string& said, const std::vector<std::string>& classes,
+                           const std::string& where) {
+    if (const auto label = named(said, classes)) return *label;
+    const auto number = number_in(said);
+    if (number && *number >= 1 && (classes.empty() || *number <= classes.size())) return *number - 1;
+    const auto shown = printable(said);
+    if (classes.empty())
+        throw Error("{}: there is no class '{}'; its classes have no names, only numbers from 1 on, as in 7",
+                    where, shown);
+    if (number)
+        throw Error("{}: there is no class {}; they are numbered from 1 to {} ('{}' .. '{}')", where, shown,
+                    classes.size(), printable(classes.front()), printable(classes.back()));
+    const auto nearest = nearest_word(lower(said), classes);
+    if (!nearest.empty())
+        throw Error("{}: there is no class '{}'; did you mean '{}'?", where, shown, printable(nearest));
+    throw Error("{}: there is no class '{}'; give a name or a number from 1 to {} ('{}' .. '{}')", where,
+                shown, classes.size(), printable(classes.front()), printable(classes.back()));
+}
+
+}  // namespace actformer::ingest

@@ -1,0 +1,42 @@
+// `actformer render` as its users meet it: which motions it takes.
+#include <gtest/gtest.h>
+
+#include "tests/support/toy_dataset.hpp"
+
+using namespace actformer::test;
+
+namespace {
+
+struct Render : testing::Test {
+    TempDir dir;
+    CommandResult render(const std::string& arguments) const {
+        return run_actformer("render " + toy().string() + " --size 40 --columns 1 --count 1 -o " +
+                             (dir / "sheet.png").string() + " " + arguments);
+    }
+};
+
+}  // namespace
+
+// Split s/two has classes 1 (c0) and 2 (c1), and not 3 (c2).
+TEST_F(Render, CountsClassesFromOneOrTakesTheirNames) {
+    for (const auto* said : {"1", "2", "A002", "c0", "C1"})
+        EXPECT_EQ(render("--split s/two --class " + std::string(said)).exit, 0) << said;
+    expect_refused(render("--split s/two --class 3"), {"no motion of class '3'"});
+    expect_refused(render("--class 0"), {toy().string(), "no class 0", "from 1 to 3 ('c0' .. 'c2')"});
+    expect_refused(render("--class 4"), {"no class 4", "from 1 to 3"});
+    expect_refused(render("--class c"), {"no class 'c'"});
+    expect_refused(render("--class c0l"), {"no class 'c0l'; did you mean 'c0'?"});
+}
+
+TEST_F(Render, TakesClassesOfAMotionsFileFromTheDatasetBesideIt) {
+    const auto motions = (dir / "motions.h5").string();
+    ASSERT_EQ(run_actformer("export " + toy().string() + " --split s/two -o " + motions).exit, 0);
+    const auto of_file = [&](const std::string& said) {
+        return run_actformer("render " + motions + " --bones " + toy().string() + " --size 40 --count 1 -o " +
+                             (dir / "m.png").string() + " --class " + said);
+    };
+    EXPECT_EQ(of_file("c1").exit, 0) << of_file("c1").output;
+    EXPECT_EQ(of_file("2").exit, 0);
+    expect_refused(of_file("3"), {"no motion of class '3'"});
+    expect_refused(of_file("cl1"), {motions, "did you mean 'c1'?"});
+}

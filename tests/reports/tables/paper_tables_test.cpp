@@ -1,0 +1,108 @@
+// The papers' tables: those that come with the program, and what their files may and may not say.
+#include "reports/tables/paper_tables.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "base/error.hpp"
+
+namespace actformer::reports {
+namespace {
+
+const std::string head = "title: Table 9\ncaption: c\nsource: s\norder: 9\n";
+const std::string columns = "columns:\n  - {dataset: A, metrics: [accuracy, diversity]}\n";
+
+std::string refusal(const std::string& yaml) {
+    try {
+        read_table(yaml, "x/table9.yaml");
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "nothing is wrong";
+}
+
+void expect_refused(const std::string& yaml, const std::vector<std::string>& words) {
+    const auto why = refusal(yaml);
+    EXPECT_EQ(why.find('\n'), std::string::npos) << why;
+    for (const auto& word : words) EXPECT_NE(why.find(word), std::string::npos) << word << ": " << why;
+}
+
+TEST(PaperTables, AreWhatThePaperPrints) {
+    const auto& tables = paper_tables();
+    ASSERT_GE(tables.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(tables[i].id, "table" + std::to_string(i + 1));
+    // The sums of all figures, a mistyped digit changes one of them.
+    const double sums[] = {1249.01, 377.72, 238.16, 580.00, 299.82};
+    for (std::size_t i = 0; i < 5; ++i) {
+        double sum = 0;
+        for (const auto& row : tables[i].rows)
+            for (const auto& figures : row.figures)
+                for (const auto& figure : figures) sum += figure.value.value_or(0);
+        EXPECT_NEAR(sum, sums[i], 1e-9) << tables[i].id;
+    }
+    const auto cell = find_cell("table5/without shared z/GTA-5P");
+    EXPECT_EQ(cell.table->rows[cell.row].figures[cell.columns][0].value, 2.42);
+    EXPECT_EQ(words_of(cell), "Table 5 · without shared z · GTA-5P");
+}
+
+TEST(PaperTables, HoldIntervalsAndWhatIsNotAtHand) {
+    const auto table = read_table(head + columns +
+                                      "metrics:\n  accuracy: {heading: Acc., scale: 1}\n"
+                                      "  diversity: {better: higher}\n"
+                                      "real: real motions\n"
+                                      "rows:\n"
+                                      "  real motions: {A: [98.8 ± 0.25, 7.07]}\n"
+                                      "  a: {A: [-, not at hand]}\n"
+                                      "  b: {A: not at hand}\n"
+                                      "  c: {}\n",
+                                  "x/table9.yaml");
+    EXPECT_EQ(table.id, "table9");
+    const auto& metrics = table.columns[0].metrics;
+    EXPECT_EQ(metrics[0].heading, "Acc.");
+    EXPECT_EQ(metrics[0].scale, 1);
+    EXPECT_EQ(metrics[0].better, Better::higher) << "as scoring has it";
+    EXPECT_EQ(metrics[1].better, Better::higher) << "as the table has it";
+    EXPECT_EQ(table.real, 0U);
+    const auto figure = [&](std::size_t row, std::size_t metric) {
+        return table.rows[row].figures[0][metric];
+    };
+    EXPECT_EQ(figure(0, 0).value, 98.8);
+    EXPECT_EQ(figure(0, 0).half_width, 0.25);
+    EXPECT_FALSE(figure(0, 1).half_width);
+    EXPECT_FALSE(figure(1, 0).value);
+    EXPECT_TRUE(figure(1, 0).at_hand);
+    EXPECT_FALSE(figure(1, 1).at_hand);
+    EXPECT_FALSE(figure(2, 0).at_hand || figure(2, 1).at_hand);
+    ASSERT_EQ(table.rows[3].figures[0].size(), 2U);
+    EXPECT_TRUE(figure(3, 0).at_hand);
+}
+
+TEST(PaperTables, TellFileAndLineOfWhatIsWrong) {
+    const auto rows = [](const std::string& text) { return head + columns + "rows:\n  a: " + text + "\n"; };
+    expect_refused(rows("{A: [1]}"), {"x/table9.yaml: line 8:", "row 'a', A: 1 figures for 2 metrics"});
+    expect_refused(rows("{A: [1, x]}"), {"line 8", "'x' is no figure"});
+    expect_refused(rows("{A: [1, 2 ± ]}"), {"line 8", "'2 ±' is no figure"});
+    expect_refused(rows("{A: [1, nan]}"), {"line 8", "is no figure"});
+    expect_refused(rows("{A: [1, [2]]}"), {"line 8", "must be a number"});
+    expect_refused(rows("{A: 3}"), {"line 8", "'A' of row 'a' must be a list"});
+    expect_refused(rows("{B: [1, 2]}"), {"line 8", "no key 'B'; there are A"});
+    expect_refused(rows("3"), {"line 8", "row 'a' must be a map"});
+    expect_refused(rows("{}\n  a: {}"), {"line 9", "'a' comes twice"});
+    expect_refused(rows("{}\n  a/b: {}"), {"line 9", "'a/b'"});
+    expect_refused(rows("{}\nreal: b"), {"line 9", "no row 'b'"});
+    expect_refused(rows("{}\ncolour: red"), {"line 9", "no key 'colour'", "caption"});
+    expect_refused(rows("{}\nmetrics: {fid_mean: {}}"), {"line 9", "no key 'fid_mean'; there are accuracy"});
+    expect_refused(rows("{}\nmetrics: {accuracy: {better: best}}"), {"line 9", "nearest to real", "'best'"});
+    expect_refused(head + "columns: [{dataset: A, metrics: [fid_meen]}]\nrows: {a: {}}\n",
+                   {"line 5", "no metric 'fid_meen'", "fid_mean"});
+    expect_refused(head + "columns: [{dataset: A}]\nrows: {a: {}}\n", {"line 5", "dataset and metrics"});
+    expect_refused(head + "columns: []\nrows: {a: {}}\n", {"line 5", "columns"});
+    expect_refused(head + columns, {"x/table9.yaml", "no 'rows'"});
+    expect_refused(head + columns + "rows: {}\n", {"line 7", "rows"});
+    expect_refused("title: [\n", {"x/table9.yaml: line"});
+    expect_refused("just text", {"line 1", "must be a map"});
+}
+
+}  // namespace
+}  // namespace actformer::reports
