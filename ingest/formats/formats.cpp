@@ -16,7 +16,8 @@ std::unique_ptr<IngestCommand> make() {
 constexpr std::array entries{
     FormatEntry{"ntu", "NTU RGB+D .skeleton files -> DIR/ntu-1p and DIR/ntu-2p", ntu_examples, false,
                 make<NtuCommand>},
-    FormatEntry{"bvh", "BVH files of one skeleton -> the dataset DIR", bvh_examples, true, make<BvhCommand>},
+    FormatEntry{"bvh", "BVH and ASF/AMC files of one skeleton -> the dataset DIR", bvh_examples, true,
+                make<BvhCommand>},
 };
 
 }  // namespace
