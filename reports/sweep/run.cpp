@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "base/files/cache.hpp"
 #include "base/files/file.hpp"
+#include "base/files/lock.hpp"
 #include "base/process/process.hpp"
 
 namespace actformer::reports {
