@@ -3,6 +3,7 @@
 #include <array>
 
 #include "ingest/formats/bvh/bvh_command.hpp"
+#include "ingest/formats/motions/motions_command.hpp"
 #include "ingest/formats/ntu/ntu_command.hpp"
 
 namespace actformer::ingest {
@@ -18,6 +19,10 @@ constexpr std::array entries{
                 make<NtuCommand>},
     FormatEntry{"bvh", "BVH and ASF/AMC files of one skeleton -> the dataset DIR", bvh_examples, true,
                 make<BvhCommand>},
+    FormatEntry{
+        "motions",
+        "Arrays of joints (.npy, .npz, .csv, .h5) and motions in the public layout -> the dataset DIR",
+        motions_examples, true, make<MotionsCommand>},
 };
 
 }  // namespace

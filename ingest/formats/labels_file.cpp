@@ -18,6 +18,11 @@ class CsvReader {
   public:
     CsvReader(std::string_view text, const std::string& where) : text_(text), where_(where) {
         if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // the byte order mark of UTF-8
+        const auto header = text_.substr(0, text_.find('\n'));
+        if (header.find('\t') != std::string_view::npos && header.find(',') == std::string_view::npos) {
+            separator_ = '\t';
+            ends_ = "\t\n";
+        }
     }
 
     /// The next record that is not blank; false at the end.
@@ -39,12 +44,12 @@ class CsvReader {
     bool read_field(std::string& field) {
         if (text_.starts_with('"')) {
             read_quoted(field);
-            if (!text_.empty() && text_[0] != ',' && text_[0] != '\n' && text_[0] != '\r')
+            if (!text_.empty() && text_[0] != separator_ && text_[0] != '\n' && text_[0] != '\r')
                 throw Error("{}: text after the closing \" of {}", place(), in_quotes(field));
         }
-        const auto end = std::min(text_.find_first_of(",\n"), text_.size());
+        const auto end = std::min(text_.find_first_of(ends_), text_.size());
         auto plain = text_.substr(0, end);
-        const bool more = end < text_.size() && text_[end] == ',';
+        const bool more = end < text_.size() && text_[end] == separator_;
         if (plain.ends_with('\r') && !more) plain.remove_suffix(1);
         field += plain;
         next_line_ += end < text_.size() && !more;
@@ -70,6 +75,8 @@ class CsvReader {
 
     std::string_view text_;
     const std::string& where_;
+    char separator_ = ',';
+    const char* ends_ = ",\n";  ///< of a field
     std::size_t line_ = 0, next_line_ = 1;
 };
 
@@ -98,8 +105,9 @@ struct Columns {
             place = column;
             return true;
         };
-        return take_as(file, "file", "path") || take_as(action, "action", "label") ||
-               take_as(start, "start_frame", "start") || take_as(end, "end_frame", "end");
+        return take_as(file, "file", "path") || take_as(file, "name", "clip") ||
+               take_as(action, "action", "label") || take_as(start, "start_frame", "start") ||
+               take_as(end, "end_frame", "end");
     }
 };
 

@@ -49,7 +49,7 @@ std::vector<std::string_view> split_at_slashes(std::string_view path) {
 std::string_view without_extension(std::string_view path) {
     const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + ('a' - 'A') : a) == b; };
     for (const std::string_view extension :
-         {".bvh", ".amc", ".asf", ".skeleton", ".npy", ".npz", ".csv", ".pkl"}) {
+         {".bvh", ".amc", ".asf", ".skeleton", ".npy", ".npz", ".csv", ".tsv", ".h5", ".hdf5", ".pkl"}) {
         if (path.size() < extension.size()) continue;
         const auto end = path.substr(path.size() - extension.size());
         if (std::equal(end.begin(), end.end(), extension.begin(), same))

@@ -87,6 +87,12 @@ void JointArray::take_axis(char letter, std::uint64_t length, std::uint64_t stri
     }
 }
 
+const char* JointArray::end_of_clip(std::uint64_t clip) const {
+    const auto largest = std::max({of_frame_, of_person_, of_joint_, of_coordinate_});
+    return array_->values.data() +
+           (has_clips_ && of_clip_ > largest ? (clip + 1) * of_clip_ * array_->size : 0);
+}
+
 void JointArray::pose(std::uint64_t clip, std::uint64_t frame, std::uint64_t person, double* to) const {
     const auto first = clip * of_clip_ + frame * of_frame_ + person * of_person_;
     if (of_coordinate_ == 1 && of_joint_ == 3) return array_->copy(first, 1, joints_ * 3, to);

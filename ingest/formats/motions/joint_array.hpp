@@ -24,6 +24,9 @@ class JointArray {
     bool has_clips() const { return has_clips_; }  ///< an axis of clips
     bool guessed() const { return guessed_; }      ///< another order of its four axes would have fitted too
 
+    /// Where the numbers end that nobody needs once this clip and those before it are read.
+    const char* end_of_clip(std::uint64_t clip) const;
+
     /// (joints, 3) positions of a body.
     void pose(std::uint64_t clip, std::uint64_t frame, std::uint64_t person, double* to) const;
 

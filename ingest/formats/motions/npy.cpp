@@ -263,8 +263,8 @@ std::vector<std::string> NumpyArray::all_texts() const {
         for (std::size_t at = 0; at < size; at += 4) {
             double character = 0;
             copy_as<std::uint32_t>(
-                bytes.data() + at, 1, 1, big_endian, [](std::uint32_t word) { return static_cast<double>(word); },
-                &character);
+                bytes.data() + at, 1, 1, big_endian,
+                [](std::uint32_t word) { return static_cast<double>(word); }, &character);
             if (character == 0) break;
             append_utf8(static_cast<std::uint32_t>(character), out[i]);
         }
