@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,6 +16,7 @@
 #include "cli/bench.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "ingest/formats/motions/motions_format.hpp"
 #include "ingest/formats/ntu/actions.hpp"
 #include "ingest/formats/ntu/ntu_format.hpp"
 #include "ingest/pipeline/pipeline.hpp"
@@ -25,6 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
+    std::string format = "ntu";
+    double gigabytes = 1;
     std::uint64_t clips = 4000, many = 0;
     std::string sample = "../shared/data/ntu_sample", peer = "../shared/reference/preprocess.py";
     std::string python = "/usr/bin/python3", folder, device;
@@ -172,7 +177,58 @@ void print_text(const Measured& ours, std::optional<double> peer) {
                    std::string(static_cast<std::size_t>(40 * seconds / (t.wall * 2)), '#'));
 }
 
+/// A .npy file of clips of 60 frames and 25 joints, `bytes` of float32 or so.
+void make_arrays(const fs::path& path, std::uint64_t size) {
+    constexpr std::uint64_t clip = 60 * 25 * 3;
+    const auto clips = std::max<std::uint64_t>(1, size / (clip * sizeof(float)));
+    std::ofstream file(path, std::ios::binary);
+    auto header =
+        fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, 60, 1, 25, 3), }}", clips);
+    header.resize(117, ' ');
+    file << std::string_view("\x93NUMPY\x01\x00\x76\x00", 10) << header << '\n';
+    std::vector<float> motion(clip);
+    for (std::uint64_t c = 0; c < clips; ++c) {
+        for (std::size_t i = 0; i < clip; ++i)
+            motion[i] =
+                std::sin(0.37F * static_cast<float>(i % 75) + 0.001F * static_cast<float>(i + c % 1000));
+        file.write(reinterpret_cast<const char*>(motion.data()),
+                   static_cast<std::streamsize>(motion.size() * sizeof(float)));
+    }
+    if (!file.flush()) throw Error("{}: cannot be written; is the disk full?", path.string());
+}
+
+void run_motions(const Options& options) {
+    kernels::Device device(options.device);
+    const Scratch scratch("bench", options.folder);
+    fs::create_directories(scratch.path() / "raw");
+    make_arrays(scratch.path() / "raw/joints.npy", static_cast<std::uint64_t>(options.gigabytes * 1e9));
+    ingest::IngestSummary best;
+    for (int i = 0; i <= options.repeats; ++i) {  // the first run warms the kernels and the page cache
+        fs::remove_all(scratch.path() / "out");
+        ingest::MotionsOptions motions;
+        motions.dataset = "bench";
+        motions.topology = "ntu25";
+        ingest::MotionsFormat format(motions);
+        ingest::IngestRequest request;
+        request.raw = {scratch.path() / "raw"};
+        request.out = scratch.path() / "out";
+        request.one_dataset = true;
+        request.threads = options.threads;
+        const auto summary = ingest::ingest(request, format, device);
+        if (i > 0 && (best.files == 0 || summary.seconds.wall < best.seconds.wall)) best = summary;
+    }
+    auto json = to_json(best);
+    json["peak_memory_mib"] = peak_memory_mib();
+    if (options.json)
+        fmt::print("{}\n", json.dump(2));
+    else
+        fmt::print("{} of .npy in {:.2f} s: {:.2f} GB/s, {:.0f} MiB of memory at most\n",
+                   bytes(best.text_bytes), best.seconds.wall,
+                   static_cast<double>(best.text_bytes) / best.seconds.wall / 1e9, peak_memory_mib());
+}
+
 void run(const Options& options) {
+    if (options.format == "motions") return run_motions(options);
     kernels::Device device(options.device);
     const Scratch scratch("bench", options.folder);
     make_raw(options, scratch.path() / "raw");
@@ -199,6 +255,12 @@ void add_bench_ingest(CLI::App& bench) {
     auto options = std::make_shared<Options>();
     auto* command =
         bench.add_subcommand("ingest", "From raw NTU text to shards, beside the reference program");
+    command->add_option("--format", options->format, "What to ingest: ntu, or motions, an array of joints")
+        ->check(CLI::IsMember({"ntu", "motions"}))
+        ->capture_default_str();
+    command->add_option("--gigabytes", options->gigabytes, "Size of the array")
+        ->check(CLI::Range(0.001, 1000.0))
+        ->capture_default_str();
     command->add_option("--clips", options->clips, "Clips, half of them copies of the sample")
         ->capture_default_str();
     command->add_option("--many", options->many, "Also ingest so many linked clips, to watch the memory");
@@ -215,7 +277,9 @@ void add_bench_ingest(CLI::App& bench) {
     command->add_option("--device", options->device, "OpenCL device: a number, gpu, cpu, or part of a name");
     command->add_option("--threads", options->threads, "Threads that read and parse (default: all cores)");
     command->add_flag("--json", options->json, "Print JSON");
-    examples(command, "  actformer bench ingest\n  actformer bench ingest --many 100000\n");
+    examples(command,
+             "  actformer bench ingest\n  actformer bench ingest --many 100000\n"
+             "  actformer bench ingest --format motions --gigabytes 4\n");
     command->callback([options] { run(*options); });
 }
 

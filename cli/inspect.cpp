@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/height.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -54,6 +55,10 @@ void print_text(const ingest::Dataset& dataset, bool list_classes) {
     fmt::print("  {} ({} to {} a clip, median {}) in {}, {}\n", counted(lengths.total, "frame"),
                lengths.shortest, lengths.longest, lengths.median, counted(dataset.shards().size(), "shard"),
                bytes(size));
+    if (const auto height = ingest::body_height(dataset))
+        fmt::print(
+            "  bodies about {:.2f} m tall{}\n", height->metres,
+            height->axis == 'y' ? "" : fmt::format(", along {}: they lie, or y is not up", height->axis));
     for (const auto& split : header.splits)
         fmt::print("  split {:<14} {}\n", split.name, counted(dataset.split(split.name).size(), "clip"));
     if (list_classes)
@@ -65,6 +70,7 @@ Json to_json(const ingest::Dataset& dataset) {
     const auto& header = dataset.header();
     const auto lengths = lengths_of(dataset);
     const auto counts = clips_a_class(dataset);
+    const auto height = ingest::body_height(dataset);
     Json splits = Json::object(), classes = Json::object();
     for (const auto& split : header.splits) splits[split.name] = dataset.split(split.name).size();
     for (std::size_t c = 0; c < counts.size(); ++c) classes[header.classes[c]] = counts[c];
@@ -81,6 +87,8 @@ Json to_json(const ingest::Dataset& dataset) {
             {"joints", header.topology.names},
             {"parents", header.topology.parents},
             {"fps", header.fps},
+            {"height",
+             height ? Json{{"metres", height->metres}, {"axis", std::string(1, height->axis)}} : Json()},
             {"shards", dataset.shards().size()},
             {"splits", splits},
             {"classes", classes}};

@@ -84,8 +84,8 @@ CleanedBatch normalise(Device& device, const ClipBatch& batch, const FrameTable&
            roots, batch.persons, batch.joints, limbs.pitch, sequences);
     launch(device, device.kernel("normalise", "unit_limbs"), {rows, 1}, limbs.values, table.owner, roots,
            motion, batch.persons, batch.joints, limbs.pitch, rows);
-    auto memory = motion.map();
-    return {memory.values(), bones.download(), std::move(memory)};
+    auto memory = std::make_shared<Mapping<float>>(motion.map());
+    return {memory->values(), bones.download(), memory};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/cache.hpp"
+#include "base/files/lock.hpp"
 #include "eval/stgcn/tuning.hpp"
 #include "ingest/dataset/dataset.hpp"
 

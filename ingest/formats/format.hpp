@@ -18,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/files/mapped_file.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "kernels/cleaning.hpp"
 
@@ -30,6 +31,13 @@ struct RawText {
     std::string_view text;      ///< empty where only the name is asked about
     std::string_view inside{};  ///< path below the folder or archive that was given, as in "walk/001.bvh"
     std::uint64_t index = 0;    ///< of the file in the source's order, which depends on names alone
+    bool on_disk = false;       ///< `path` is a file that a library can open
+    const MappedFile* mapped = nullptr;  ///< what the text of a large file lies in
+
+    /// The text before `here` has been read for good: memory stays flat over a large file.
+    void release(const char* here) const {
+        if (mapped) mapped->release(here);
+    }
 };
 
 /// A parsed clip, before it is cleaned. Formats derive from it what they need to know.
@@ -78,6 +86,9 @@ class Format {
 
     /// As in ".skeleton"; compared in any case.
     virtual std::vector<std::string_view> extensions() const = 0;
+
+    /// Bytes beyond which a file is none of the format's, but an accident. Larger ones are rejected unread.
+    virtual std::uint64_t largest_file() const { return std::uint64_t{128} << 20; }
 
     /// What the format must know of all files before the first is read.
     enum class Survey { nothing, names, texts };

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "ingest/formats/bvh/bvh_command.hpp"
+#include "ingest/formats/motions/motions_command.hpp"
 #include "ingest/formats/ntu/ntu_command.hpp"
 
 namespace actformer::ingest {
@@ -16,7 +17,12 @@ std::unique_ptr<IngestCommand> make() {
 constexpr std::array entries{
     FormatEntry{"ntu", "NTU RGB+D .skeleton files -> DIR/ntu-1p and DIR/ntu-2p", ntu_examples, false,
                 make<NtuCommand>},
-    FormatEntry{"bvh", "BVH files of one skeleton -> the dataset DIR", bvh_examples, true, make<BvhCommand>},
+    FormatEntry{"bvh", "BVH and ASF/AMC files of one skeleton -> the dataset DIR", bvh_examples, true,
+                make<BvhCommand>},
+    FormatEntry{
+        "motions",
+        "Arrays of joints (.npy, .npz, .csv, .h5) and motions in the public layout -> the dataset DIR",
+        motions_examples, true, make<MotionsCommand>},
 };
 
 }  // namespace

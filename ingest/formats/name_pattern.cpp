@@ -10,20 +10,10 @@ namespace {
 
 [[noreturn]] void refuse(std::string_view pattern, std::string_view why) {
     throw Error(
-        "name pattern {}: {}; write it as in 'dataset-2_{{action}}_{{style}}_{{index}}', with {{*}} for what "
-        "does "
-        "not matter",
+        "name pattern {}: {}; write it as in 'dataset-2_{{action}}_{{style}}_{{index}}' or "
+        "'{{action}}/{{index}}', with {{*}} for "
+        "what does not matter",
         in_quotes(pattern), why);
-}
-
-std::string_view without_extension(std::string_view text) {
-    constexpr std::string_view extension = ".bvh";
-    if (text.size() < extension.size()) return text;
-    const auto end = text.substr(text.size() - extension.size());
-    const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + ('a' - 'A') : a) == b; };
-    return std::equal(end.begin(), end.end(), extension.begin(), same)
-               ? text.substr(0, text.size() - end.size())
-               : text;
 }
 
 bool is_field_name(std::string_view name) {
@@ -34,63 +24,113 @@ bool is_field_name(std::string_view name) {
     return !name.empty() && std::all_of(name.begin(), name.end(), fits);
 }
 
+/// Why `name` cannot be a field's; empty where it can.
+std::string fault_of_field_name(std::string_view name) {
+    if (!is_field_name(name))
+        return fmt::format("{} is no field name of letters, digits, - and _", in_quotes(name));
+    // What a dataset stores of every clip under these names.
+    for (const auto taken : {"name", "label", "offset", "length", "bone_length"})
+        if (name == taken) return fmt::format("a field may not be called '{}'", name);
+    return {};
+}
+
+std::vector<std::string_view> split_at_slashes(std::string_view path) {
+    std::vector<std::string_view> out;
+    for (;;) {
+        const auto slash = path.find('/');
+        out.push_back(path.substr(0, slash));
+        if (slash == std::string_view::npos) return out;
+        path.remove_prefix(slash + 1);
+    }
+}
+
 }  // namespace
 
-NamePattern::NamePattern(std::string_view text) : text_(without_extension(text)) {
+std::string_view without_extension(std::string_view path) {
+    const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + ('a' - 'A') : a) == b; };
+    for (const std::string_view extension :
+         {".bvh", ".amc", ".asf", ".skeleton", ".npy", ".npz", ".csv", ".tsv", ".h5", ".hdf5", ".pkl"}) {
+        if (path.size() < extension.size()) continue;
+        const auto end = path.substr(path.size() - extension.size());
+        if (std::equal(end.begin(), end.end(), extension.begin(), same))
+            return path.substr(0, path.size() - end.size());
+    }
+    return path;
+}
+
+void check_field_name(const std::string& where, std::string_view name) {
+    if (const auto fault = fault_of_field_name(name); !fault.empty()) throw Error("{}: {}", where, fault);
+}
+
+NamePattern::NamePattern(std::string_view text, bool needs_action) : text_(without_extension(text)) {
+    for (const auto component : split_at_slashes(text_)) components_.push_back(read_component(component));
+    const auto action = std::find(fields_.begin(), fields_.end(), "action");
+    if (action == fields_.end() && needs_action) refuse(text_, "it has no {action}");
+    action_ = static_cast<std::size_t>(action - fields_.begin());
+}
+
+NamePattern::Component NamePattern::read_component(std::string_view text) {
+    Component out;
     std::string literal;
-    for (std::size_t i = 0; i < text_.size(); ++i) {
-        if (text_[i] == '}') refuse(text_, "a } without its {");
-        if (text_[i] != '{') {
-            literal += text_[i];
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '}') refuse(text_, "a } without its {");
+        if (text[i] != '{') {
+            literal += text[i];
             continue;
         }
-        const auto close = text_.find('}', i);
+        const auto close = text.find('}', i);
         if (close == std::string::npos) refuse(text_, "a { without its }");
-        if (literal.empty() && !parts_.empty()) refuse(text_, "two fields with nothing between them");
-        const auto name = std::string_view(text_).substr(i + 1, close - i - 1);
-        parts_.push_back({literal, name == "*"});
+        if (literal.empty() && !out.parts.empty()) refuse(text_, "two fields with nothing between them");
+        const auto name = text.substr(i + 1, close - i - 1);
+        out.parts.push_back({literal, name == "*"});
         if (name != "*") add_field(name);
         literal.clear();
         i = close;
     }
-    tail_ = literal;
-    const auto action = std::find(fields_.begin(), fields_.end(), "action");
-    if (action == fields_.end()) refuse(text_, "it has no {action}");
-    action_ = static_cast<std::size_t>(action - fields_.begin());
+    out.tail = literal;
+    if (out.parts.empty() && out.tail.empty())
+        refuse(text_, text_.empty() ? "it is empty" : "nothing before or after a /");
+    return out;
 }
 
 void NamePattern::add_field(std::string_view name) {
-    if (!is_field_name(name))
-        refuse(text_, fmt::format("{} is no field name of letters, digits, - and _", in_quotes(name)));
-    // What a dataset stores of every clip under these names.
-    for (const auto taken : {"name", "label", "offset", "length", "bone_length"})
-        if (name == taken) refuse(text_, fmt::format("a field may not be called '{}'", name));
+    if (const auto fault = fault_of_field_name(name); !fault.empty()) refuse(text_, fault);
     if (std::find(fields_.begin(), fields_.end(), name) != fields_.end())
         refuse(text_, fmt::format("two fields called '{}'", name));
     fields_.emplace_back(name);
 }
 
-std::optional<std::vector<std::string>> NamePattern::match(std::string_view stem) const {
-    const std::string_view first = parts_.front().before;
-    if (stem.size() < first.size() + tail_.size() || stem.substr(0, first.size()) != first) return {};
-    if (stem.substr(stem.size() - tail_.size()) != tail_) return {};
-    stem = stem.substr(first.size(), stem.size() - first.size() - tail_.size());
+bool NamePattern::match(const Component& component, std::string_view name, std::vector<std::string>& values) {
+    const auto& [parts, tail] = component;
+    if (parts.empty()) return name == tail;
+    const std::string_view first = parts.front().before;
+    if (name.size() < first.size() + tail.size() || !name.starts_with(first) || !name.ends_with(tail))
+        return false;
+    name = name.substr(first.size(), name.size() - first.size() - tail.size());
 
     // Ending every field as soon as may be leaves most to the fields after it: no other cut can fit where
     // this does not.
-    std::vector<std::string> values;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-        if (stem.empty()) return {};
-        std::size_t end = stem.size(), next = stem.size();
-        if (i + 1 < parts_.size()) {
-            const std::string& separator = parts_[i + 1].before;
-            end = stem.find(separator, 1);
-            if (end == std::string_view::npos) return {};
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (name.empty()) return false;
+        std::size_t end = name.size(), next = name.size();
+        if (i + 1 < parts.size()) {
+            const std::string& separator = parts[i + 1].before;
+            end = name.find(separator, 1);
+            if (end == std::string_view::npos) return false;
             next = end + separator.size();
         }
-        if (!parts_[i].forgotten) values.push_back(printable(stem.substr(0, end)));
-        stem = stem.substr(next);
+        if (!parts[i].forgotten) values.push_back(printable(name.substr(0, end)));
+        name = name.substr(next);
     }
+    return true;
+}
+
+std::optional<std::vector<std::string>> NamePattern::match(std::string_view path) const {
+    const auto names = split_at_slashes(path);
+    if (names.size() < components_.size()) return {};
+    std::vector<std::string> values;
+    for (std::size_t i = 0; i < components_.size(); ++i)
+        if (!match(components_[i], names[names.size() - components_.size() + i], values)) return {};
     return values;
 }
 

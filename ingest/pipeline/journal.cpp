@@ -1,9 +1,5 @@
 #include "ingest/pipeline/journal.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -63,18 +59,12 @@ void append(const fs::path& path, const std::string& line) {
 Workplace::Workplace(fs::path folder, const std::string& request) : folder_(std::move(folder)) {
     std::error_code error;
     fs::create_directories(folder_, error);
-    lock_ = ::open((folder_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (error || lock_ < 0)
-        throw Error("{}: the folder cannot be made or written: {}", folder_.string(),
-                    error ? error.message() : std::strerror(errno));
-    if (::flock(lock_, LOCK_EX | LOCK_NB) != 0)
+    if (error) throw Error("{}: the folder cannot be made: {}", folder_.string(), error.message());
+    lock_ = FileLock::if_free(folder_ / "lock");
+    if (!lock_)
         throw Error("{}: another ingest is writing there; wait for it, or choose another -o",
                     folder_.string());
     load(request);
-}
-
-Workplace::~Workplace() {
-    if (lock_ >= 0) ::close(lock_);
 }
 
 void Workplace::load(const std::string& request) {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/files/lock.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/formats/format.hpp"
 
@@ -43,9 +45,6 @@ class Workplace {
     /// Opens or makes `folder`. Work that an earlier run left for another `request` (settings and raw files) is thrown away.
     /// Throws Error where another process holds it.
     Workplace(std::filesystem::path folder, const std::string& request);
-    ~Workplace();
-    Workplace(const Workplace&) = delete;
-    Workplace& operator=(const Workplace&) = delete;
 
     const std::vector<Tranche>& finished() const { return finished_; }
     std::filesystem::path data() const { return folder_ / "data"; }
@@ -64,7 +63,7 @@ class Workplace {
     void start_afresh(const std::string& request);
 
     std::filesystem::path folder_;
-    int lock_ = -1;
+    std::optional<FileLock> lock_;
     std::vector<Tranche> finished_;
 };
 

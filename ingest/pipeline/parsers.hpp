@@ -28,10 +28,11 @@ struct Portion {
 
 class Parsers {
   public:
-    /// Reads and parses one file; `text` is the thread's own and keeps its memory from file to file.
-    using Parse = std::function<void(Item&, ClipSink&, std::vector<char>& text)>;
+    /// Reads and parses one file; the memory is the thread's own.
+    using Parse = std::function<void(Item&, ClipSink&, TextMemory&)>;
 
-    Parsers(unsigned threads, Parse parse) : parse_(std::move(parse)) {
+    Parsers(unsigned threads, std::uint64_t largest_file, Parse parse)
+        : parse_(std::move(parse)), largest_file_(largest_file) {
         for (unsigned t = 0; t < threads; ++t) threads_.emplace_back([this] { work(); });
     }
 
@@ -132,7 +133,7 @@ class Parsers {
     }
 
     void work() {
-        std::vector<char> text;
+        TextMemory text(largest_file_);
         std::unique_lock lock(mutex_);
         for (;;) {
             InHand* in_hand = nullptr;
@@ -155,6 +156,7 @@ class Parsers {
     }
 
     Parse parse_;
+    std::uint64_t largest_file_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<InHand> groups_;

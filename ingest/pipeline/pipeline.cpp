@@ -36,6 +36,18 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Of the text, piece by piece, so that a large file does not come into memory whole.
+std::string checksum_of(const RawText& raw) {
+    constexpr std::size_t piece = std::size_t{16} << 20;
+    Checksum sum;
+    for (std::size_t from = 0; from < raw.text.size(); from += piece) {
+        const auto part = raw.text.substr(from, piece);
+        sum.add(part);
+        raw.release(part.data() + part.size());
+    }
+    return sum.hex();
+}
+
 class Ingest {
   public:
     Ingest(const IngestRequest& request, Format& format, kernels::Device& device)
@@ -44,7 +56,7 @@ class Ingest {
     IngestSummary run() {
         const auto start = Clock::now();
         settle_format();
-        Source source(request_.raw, format_.extensions());
+        Source source(request_.raw, format_.extensions(), format_.largest_file());
         summary_.seconds.walk = seconds_since(start);
         const auto wanted = request_line(source);
         const auto aside = fs::path(request_.out.string() + ".partial");
@@ -78,7 +90,7 @@ class Ingest {
     void settle_format() {
         const auto wanted = format_.surveys();
         if (wanted != Format::Survey::nothing) {
-            Source source(request_.raw, format_.extensions());
+            Source source(request_.raw, format_.extensions(), format_.largest_file());
             wanted == Format::Survey::names ? survey_names(source) : survey_texts(source);
         }
         format_.settle();
@@ -96,13 +108,14 @@ class Ingest {
 
     void survey_texts(Source& source) {
         Groups groups(source, static_cast<double>(source.bytes_total()));
-        std::vector<std::vector<char>> scratch(threads_);
+        std::vector<TextMemory> memory;
+        for (unsigned t = 0; t < threads_; ++t) memory.emplace_back(format_.largest_file());
         for (Group group; groups.next(group);)
             parallel_for(group.items.size(), threads_, [&](std::size_t i, unsigned thread) {
                 const auto& file = group.items[i].file;
                 if (format_.refuse(file.raw())) return;
                 try {
-                    format_.survey(file.raw(file.text(scratch[thread])));
+                    format_.survey(memory[thread].read(file));
                 } catch (const Error&) {  // it cannot be read, and is rejected when it is to be parsed
                 }
             });
@@ -148,9 +161,9 @@ class Ingest {
     void read_everything(Workplace& workplace, Source& source) {
         Groups groups(source, static_cast<double>(source.bytes_total()));
         Worker writer(1), cleaner(portions_ahead);
-        Parsers parsers(threads_, [this](Item& item, ClipSink& sink, std::vector<char>& text) {
-            parse(item, sink, text);
-        });
+        Parsers parsers(
+            threads_, format_.largest_file(),
+            [this](Item& item, ClipSink& sink, TextMemory& memory) { parse(item, sink, memory); });
         const auto hand_on = [&] {
             cleaner.add([this, &workplace, &writer, portion = parsers.take()]() mutable {
                 add(portion, workplace, writer);
@@ -170,16 +183,16 @@ class Ingest {
         writer.finish();
     }
 
-    void parse(Item& item, ClipSink& sink, std::vector<char>& scratch) const {
+    void parse(Item& item, ClipSink& sink, TextMemory& memory) const {
         const auto& file = item.file;
         if (auto refused = format_.refuse(file.raw())) return sink.take(std::move(*refused));
         const auto start = Clock::now();
         try {
-            const auto text = file.text(scratch);
-            item.file.size = text.size();
+            const auto raw = memory.read(file);
+            item.file.size = raw.text.size();
             item.read_seconds = seconds_since(start);
-            item.checksum = checksum(text);
-            format_.read(file.raw(text), sink);
+            item.checksum = checksum_of(raw);
+            format_.read(raw, sink);
             item.parse_seconds = seconds_since(start) - item.read_seconds;
         } catch (const Error& e) {
             std::string why = e.what();

@@ -17,8 +17,7 @@ namespace actformer::ingest {
 namespace fs = std::filesystem;
 namespace {
 
-// Far above any real clip; keeps a hostile archive member from eating the memory.
-constexpr std::uint64_t largest_text = std::uint64_t{128} << 20;
+constexpr std::uint64_t least_mapped = std::uint64_t{32} << 20;
 
 using Extensions = std::vector<std::string>;
 
@@ -54,8 +53,8 @@ std::string stem_of(const std::string& path, const Extensions& extensions) {
 /// One archive, read front to back.
 class Archive {
   public:
-    explicit Archive(fs::path path)
-        : path_(std::move(path)), reader_(archive_read_new(), &archive_read_free) {
+    Archive(fs::path path, std::uint64_t largest_file)
+        : path_(std::move(path)), largest_(largest_file), reader_(archive_read_new(), &archive_read_free) {
         archive_read_support_filter_all(reader_.get());
         archive_read_support_format_all(reader_.get());
         if (archive_read_open_filename(reader_.get(), path_.c_str(), std::size_t{1} << 17) != ARCHIVE_OK)
@@ -88,7 +87,7 @@ class Archive {
     /// Reads the member that next() stopped at. A member beyond the size limit is marked unreadable and skipped.
     void read(RawFile& file) {
         auto& bytes = file.bytes;
-        bytes.reserve(std::min(file.size, largest_text) + text_padding);
+        bytes.reserve(std::min({file.size, largest_, usual_largest_file}) + text_padding);
         for (;;) {
             const void* block = nullptr;
             std::size_t size = 0;
@@ -96,9 +95,8 @@ class Archive {
             const int result = archive_read_data_block(reader_.get(), &block, &size, &offset);
             if (result == ARCHIVE_EOF) break;
             if (result < ARCHIVE_WARN) broken();
-            if (static_cast<std::uint64_t>(offset) + size > largest_text) {
-                file.unreadable =
-                    fmt::format("more than the {} MiB that one clip may have", largest_text >> 20);
+            if (static_cast<std::uint64_t>(offset) + size > largest_) {
+                file.unreadable = fmt::format("more than the {} MiB that one clip may have", largest_ >> 20);
                 bytes.clear();
                 break;
             }
@@ -125,6 +123,7 @@ class Archive {
     }
 
     fs::path path_;
+    std::uint64_t largest_;  ///< keeps a hostile member from eating the memory
     std::unique_ptr<archive, decltype(&archive_read_free)> reader_;
     std::string member_;
 };
@@ -163,14 +162,23 @@ void look_at(std::vector<Item>& items) {
 
 }  // namespace
 
-std::string_view RawFile::text(std::vector<char>& scratch) const {
+std::string_view RawFile::text(std::vector<char>& scratch, std::uint64_t largest) const {
     if (!unreadable.empty()) throw Error("{}: {}", path, unreadable);
     if (in_memory) return {bytes.data(), bytes.size() - text_padding};
-    return read_text(path, scratch, largest_text);
+    return read_text(path, scratch, largest);
+}
+
+RawText TextMemory::read(const RawFile& file) {
+    mapped_.reset();
+    if (file.in_memory || file.size < least_mapped || file.size > largest_)
+        return file.raw(file.text(scratch_, largest_));
+    mapped_.emplace(file.path);
+    return file.raw(mapped_->text(), &*mapped_);
 }
 
 struct Source::State {
     Extensions extensions;
+    std::uint64_t largest = usual_largest_file;
     std::vector<fs::path> given;
     std::vector<Item> items;
     std::size_t at = 0;
@@ -195,7 +203,7 @@ struct Source::State {
                 ++at;
                 return true;
             }
-            if (!archive) archive = std::make_unique<Archive>(item.path);
+            if (!archive) archive = std::make_unique<Archive>(item.path, largest);
             if (archive->next(extensions, file)) {
                 file.index = files++;
                 if (with_bytes) archive->read(file);
@@ -208,8 +216,10 @@ struct Source::State {
     }
 };
 
-Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_view>& extensions)
+Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_view>& extensions,
+               std::uint64_t largest_file)
     : state_(new State) {
+    state_->largest = largest_file;
     state_->extensions.assign(extensions.begin(), extensions.end());
     state_->given = raw;
     for (std::size_t i = 0; i < raw.size(); ++i) {
@@ -221,7 +231,8 @@ Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_v
         } else {
             const bool archive = extension_of(raw[i].string(), state_->extensions) == 0;
             if (archive)
-                const Archive opens(raw[i]);  // so that a wrong argument is said before any work is done
+                const Archive opens(
+                    raw[i], largest_file);  // so that a wrong argument is said before any work is done
             state_->items.push_back({raw[i].string(), i, archive});
         }
     }

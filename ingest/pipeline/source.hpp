@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "ingest/formats/format.hpp"
 
 namespace actformer::ingest {
+
+inline constexpr std::uint64_t usual_largest_file = std::uint64_t{128} << 20;
 
 /// One file of a source: on disk to be read when wanted, or already in memory (out of an archive).
 struct RawFile {
@@ -24,18 +27,36 @@ struct RawFile {
     std::vector<char> bytes;  ///< in_memory: the text and 64 zero bytes after it
     std::string unreadable;   ///< why it could not be read out of the archive; empty where it could
 
-    /// The text, in `scratch` or in `bytes`, followed by 64 zero bytes. Throws Error where the file cannot be read.
-    std::string_view text(std::vector<char>& scratch) const;
+    /// The text, in `scratch` or in `bytes`, followed by 64 zero bytes. Throws Error where the file cannot be read, or has more than
+    /// `largest` bytes.
+    std::string_view text(std::vector<char>& scratch, std::uint64_t largest = usual_largest_file) const;
 
     /// As formats see it, with `text` or by its name alone.
-    RawText raw(std::string_view text = {}) const { return {path, stem, text, inside, index}; }
+    RawText raw(std::string_view text = {}, const MappedFile* mapped = nullptr) const {
+        return {path, stem, text, inside, index, !in_memory, mapped};
+    }
+};
+
+/// What a thread reads texts into; it keeps its memory from file to file.
+class TextMemory {
+  public:
+    explicit TextMemory(std::uint64_t largest_file) : largest_(largest_file) {}
+
+    /// The text of `file`, as in RawFile::text, until the next call. Large files are mapped.
+    RawText read(const RawFile& file);
+
+  private:
+    std::uint64_t largest_;
+    std::vector<char> scratch_;
+    std::optional<MappedFile> mapped_;
 };
 
 /// Walks RAW paths in an order that depends on names alone: paths as given, folders sorted, archives as stored.
 class Source {
   public:
-    /// Throws Error where a path is missing or neither folder, archive nor a file with one of `extensions`.
-    Source(const std::vector<std::filesystem::path>& raw, const std::vector<std::string_view>& extensions);
+    /// Of an archive, members beyond `largest_file` bytes come unreadable. Throws Error where a path is missing or neither folder, archive nor a file with one of `extensions`.
+    Source(const std::vector<std::filesystem::path>& raw, const std::vector<std::string_view>& extensions,
+           std::uint64_t largest_file = usual_largest_file);
     ~Source();
 
     /// The next file; false at the end. Throws Error naming the archive and member where an archive is broken.

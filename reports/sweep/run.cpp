@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "base/error.hpp"
-#include "base/files/cache.hpp"
 #include "base/files/file.hpp"
 
 namespace actformer::reports {

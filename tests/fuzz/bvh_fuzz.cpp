@@ -6,8 +6,8 @@
 
 #include "base/error.hpp"
 #include "ingest/formats/bvh/bvh_file.hpp"
-#include "ingest/formats/bvh/skeleton.hpp"
 #include "ingest/formats/name_pattern.hpp"
+#include "ingest/formats/skeletal/skeleton.hpp"
 
 using namespace actformer;
 
@@ -17,8 +17,8 @@ void require(bool condition) {
     if (!condition) std::abort();
 }
 
-void check_taken(const ingest::BvhFile& file) {
-    require(!file.joints.empty() && file.frames > 0 && file.channels > 0);
+void check_taken(const ingest::Recording& file) {
+    require(!file.joints.empty() && file.frames > 0);
     require(file.values.size() == std::size_t{file.channels} * file.frames);
     for (const float v : file.values) require(std::isfinite(v));
     require(std::isfinite(file.fps()) && file.fps() > 0);
@@ -40,7 +40,11 @@ void read_file(const std::string& bytes) {
     std::vector<char> padded(bytes.begin(), bytes.end());
     padded.resize(bytes.size() + 64);
     const auto result = ingest::parse_bvh({padded.data(), bytes.size()});
-    if (const auto* file = std::get_if<ingest::BvhFile>(&result)) return check_taken(*file);
+    if (const auto* persons = std::get_if<std::vector<ingest::Recording>>(&result)) {
+        require(!persons->empty());
+        for (const auto& person : *persons) check_taken(person);
+        return;
+    }
     const auto& reason = std::get<ingest::Rejection>(result).reason;
     require(reason.starts_with("line ") && reason.find('\n') == std::string::npos && reason.size() < 300);
 }

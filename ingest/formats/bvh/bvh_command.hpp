@@ -1,7 +1,8 @@
 // The options of `actformer ingest bvh`.
 #pragma once
 
-#include "ingest/formats/bvh/bvh_format.hpp"
+#include "ingest/formats/bvh/bvh_options.hpp"
+#include "ingest/formats/format.hpp"
 
 namespace actformer::ingest {
 
@@ -15,11 +16,18 @@ struct BvhCommand : IngestCommand {
 
 inline constexpr std::string_view bvh_examples =
     "  actformer ingest bvh walks/ -o walks --name '{action}_{index}'\n"
+    "  actformer ingest bvh captures/ -o captures --name '{action}/{index}' --up z --scale auto --fps 30\n"
     "  actformer ingest bvh bnr2.tar.xz -o bnr-10 --name 'dataset-2_{action}_{style}_{index}' \\\n"
     "      --split 'xstyle/train=style:active,exhausted,masculine,normal' \\\n"
     "      --split 'xstyle/test=style:elderly,feminine,youthful'\n"
-    "  actformer ingest bvh captures.zip -o captures --name '{*}_{action}_{*}' --fps 30 --scale 1\n"
-    "The joints come from the first sound file; files with other joints are left out and named.\n"
-    "Position channels take the place of offsets. An interrupted run goes on when given again.\n";
+    "  actformer ingest bvh pairs/ -o pairs --name '{action}_{take}_{person}' --skip-first 1\n"
+    "  actformer ingest bvh cmu/ -o cmu --labels labels.csv --scale auto --split 'test=split:test'\n"
+    "A table of labels has a line a clip below its header: file,action,start_frame,end_frame,FIELD,... "
+    "where\n"
+    "frames may be left out, and several lines cut a file into clips. CMU's .amc files are read with the "
+    ".asf\n"
+    "skeletons beside them. The skeleton is the one that most files have, joints matched by name; other "
+    "files\n"
+    "are left out and named. An interrupted run goes on when given again.\n";
 
 }  // namespace actformer::ingest

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <optional>
 #include <unordered_set>
+#include <utility>
 
 #include "base/text/number.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/formats/skeletal/text_reader.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -16,28 +18,6 @@ using kernels::Channel;
 constexpr std::size_t most_joints = 4096;
 constexpr double largest = 1e9;  // of numbers: what follows from them then stays finite in float32
 
-/// What is wrong, and where; stays within this file.
-struct Fault {
-    const char* at;
-    std::string reason;
-};
-
-bool is_space(char c) {
-    return c == ' ' || c == '\t' || c == '\r';
-}
-bool is_blank(char c) {
-    return is_space(c) || c == '\n';
-}
-bool is_brace(char c) {
-    return c == '{' || c == '}';
-}
-
-/// `word` is `keyword`, given in capitals, in any case.
-bool is(std::string_view word, std::string_view keyword) {
-    const auto same = [](char a, char b) { return (a >= 'a' && a <= 'z' ? a - ('a' - 'A') : a) == b; };
-    return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), same);
-}
-
 std::optional<Channel> channel_named(std::string_view word) {
     constexpr std::string_view names[] = {"XPOSITION", "YPOSITION", "ZPOSITION",
                                           "XROTATION", "YROTATION", "ZROTATION"};
@@ -46,84 +26,10 @@ std::optional<Channel> channel_named(std::string_view word) {
     return {};
 }
 
-/// Words, numbers and lines of the text. The zero bytes after its end stop every number.
-class Text {
-  public:
-    explicit Text(std::string_view text) : p_(text.data()), end_(text.data() + text.size()) {
-        if (text.substr(0, 3) == "\xEF\xBB\xBF") p_ += 3;  // the byte order mark of UTF-8
-    }
-
-    const char* at() const { return p_; }
-    void move_to(const char* p) { p_ = p; }
-    bool at_end() const { return p_ == end_; }
-    std::size_t left() const { return static_cast<std::size_t>(end_ - p_); }
-
-    void skip_blanks() {
-        while (p_ != end_ && is_blank(*p_)) ++p_;
-    }
-
-    void skip_spaces() {
-        while (is_space(*p_)) ++p_;
-    }
-
-    /// The next word, without moving past it: characters up to a blank or a brace, or one brace. Empty at the
-    /// end.
-    std::string_view peek() {
-        skip_blanks();
-        const char* q = p_;
-        if (q != end_ && is_brace(*q)) return {q, 1};
-        while (q != end_ && !is_blank(*q) && !is_brace(*q)) ++q;
-        return {p_, static_cast<std::size_t>(q - p_)};
-    }
-
-    std::string_view word() {
-        const auto w = peek();
-        p_ = w.data() + w.size();
-        return w;
-    }
-
-    /// What is left of the line, or of it before a brace, without the blanks around it.
-    std::string_view rest_of_line() {
-        skip_spaces();
-        const char* q = p_;
-        while (q != end_ && *q != '\n' && !is_brace(*q)) ++q;
-        std::string_view rest(p_, static_cast<std::size_t>(q - p_));
-        p_ = q;
-        while (!rest.empty() && is_space(rest.back())) rest.remove_suffix(1);
-        return rest;
-    }
-
-    /// The number that comes next; `what` it is for the fault where it is none, or larger than `limit`.
-    double number(const char* what, double limit) {
-        skip_blanks();
-        double value = 0;
-        const char* q = parse_number(p_, value);
-        if (!q || !(q == end_ || is_blank(*q) || is_brace(*q))) fail("{} in place of {}", shown(), what);
-        if (std::abs(value) > limit) fail("{} is too large for {}", shown(), what);
-        p_ = q;
-        return value;
-    }
-
-    /// The next word for messages.
-    std::string shown() {
-        const auto w = peek();
-        return w.empty() ? "the end of the text" : in_quotes(w);
-    }
-
-    template <typename... Args>
-    [[noreturn]] void fail(fmt::format_string<Args...> reason, Args&&... args) const {
-        throw Fault{p_, fmt::format(reason, std::forward<Args>(args)...)};
-    }
-
-  private:
-    const char* p_;
-    const char* end_;
-};
-
-/// HIERARCHY up to MOTION. Open joints are followed through their parents, so that no nesting is too deep.
+/// HIERARCHY up to MOTION, the ROOTs one after the other. Open joints are followed through their parents, so that no nesting is too deep.
 class HierarchyReader {
   public:
-    HierarchyReader(Text& text, BvhFile& file) : text_(text), file_(file) {}
+    HierarchyReader(TextReader& text, Recording& file) : text_(text), file_(file) {}
 
     void read() {
         if (!is(text_.peek(), "HIERARCHY"))
@@ -138,7 +44,7 @@ class HierarchyReader {
   private:
     void read_entry() {
         const auto word = text_.peek();
-        if (is(word, "ROOT")) return begin_root();
+        if (is(word, "ROOT") && open_ < 0) return begin_root();
         if (open_ < 0)
             text_.fail("{} in place of {}", text_.shown(), file_.joints.empty() ? "ROOT" : "MOTION");
         if (word.empty() || is(word, "MOTION"))
@@ -155,7 +61,7 @@ class HierarchyReader {
     }
 
     void begin_root() {
-        if (!file_.joints.empty()) text_.fail("a second ROOT; give every skeleton a file of its own");
+        names_.clear();
         begin_joint(false);
     }
 
@@ -163,18 +69,18 @@ class HierarchyReader {
         const char* start = text_.at();
         text_.word();
         const auto name = text_.rest_of_line();  // of an end site: the word Site
-        BvhJoint joint;
+        RecordedJoint joint;
         joint.parent = open_;
         joint.end_site = end_site;
         joint.first_channel = file_.channels;
         if (!end_site) {
             joint.name = printable(name);
-            if (name.empty()) throw Fault{start, "a joint without a name"};
+            if (name.empty()) throw TextFault{start, "a joint without a name"};
             if (!names_.insert(joint.name).second)
-                throw Fault{start, fmt::format("a second joint {}", in_quotes(name))};
+                throw TextFault{start, fmt::format("a second joint {}", in_quotes(name))};
         }
         if (file_.joints.size() == most_joints)
-            throw Fault{start, fmt::format("more than {} joints", most_joints)};
+            throw TextFault{start, fmt::format("more than {} joints", most_joints)};
         if (text_.peek() != "{") text_.fail("{} in place of {{", text_.shown());
         text_.word();
         open_ = static_cast<int>(file_.joints.size());
@@ -197,18 +103,18 @@ class HierarchyReader {
         text_.word();
         const char* start = text_.at();
         const double count = text_.number("a number of channels", largest);
-        BvhJoint& joint = file_.joints[open_];
+        RecordedJoint& joint = file_.joints[open_];
         const bool fits = count >= 0 && count <= 6 && count == std::floor(count);
         if (!fits || (joint.end_site && count > 0))
-            throw Fault{start, fmt::format("{} channels of {}, not {}", count, name_of(open_),
-                                           joint.end_site ? "0" : "a whole number up to 6")};
+            throw TextFault{start, fmt::format("{} channels of {}, not {}", count, name_of(open_),
+                                               joint.end_site ? "0" : "a whole number up to 6")};
         for (int i = 0; i < static_cast<int>(count); ++i) joint.channels.push_back(read_channel(joint, i));
         if (channel_named(text_.peek())) text_.fail("more than the {} channels announced", count);
         file_.channels += static_cast<std::uint32_t>(count);
         has_channels_[open_] = true;
     }
 
-    Channel read_channel(const BvhJoint& joint, int i) {
+    Channel read_channel(const RecordedJoint& joint, int i) {
         const auto channel = channel_named(text_.peek());
         if (!channel)
             text_.fail(
@@ -226,22 +132,22 @@ class HierarchyReader {
     }
 
     std::string name_of(int joint) const {
-        const BvhJoint& j = file_.joints[joint];
+        const RecordedJoint& j = file_.joints[joint];
         return j.end_site ? fmt::format("the End Site of {}", in_quotes(file_.joints[j.parent].name))
                           : in_quotes(j.name);
     }
 
-    Text& text_;
-    BvhFile& file_;
+    TextReader& text_;
+    Recording& file_;
     int open_ = -1;  ///< the joint whose braces we are in
     std::vector<bool> has_offset_, has_channels_;
-    std::unordered_set<std::string> names_;
+    std::unordered_set<std::string> names_;  ///< below the ROOT in hand
 };
 
 /// Frames, frame time and the numbers, one line a frame.
 class MotionReader {
   public:
-    MotionReader(Text& text, BvhFile& file) : text_(text), file_(file) {}
+    MotionReader(TextReader& text, Recording& file) : text_(text), file_(file) {}
 
     void read() {
         read_frames();
@@ -282,12 +188,13 @@ class MotionReader {
         const char* start = text_.at();
         const double frames = text_.number("a number of frames", 1e300);
         if (frames < 1 || frames != std::floor(frames))
-            throw Fault{start, fmt::format("{} frames, not a whole number of 1 or more", frames)};
+            throw TextFault{start, fmt::format("{} frames, not a whole number of 1 or more", frames)};
         // A number takes two characters, blank included. Believe no more than that before making room for
         // them.
         if (frames * file_.channels * 2 > static_cast<double>(text_.left()) + 1 || frames > 4e9)
-            throw Fault{start, fmt::format("{} frames of {} numbers do not fit in the {} bytes that follow",
-                                           frames, file_.channels, text_.left())};
+            throw TextFault{
+                start, fmt::format("{} frames of {} numbers do not fit in the {} bytes that follow", frames,
+                                   file_.channels, text_.left())};
         file_.frames = static_cast<std::uint32_t>(frames);
     }
 
@@ -298,7 +205,7 @@ class MotionReader {
         const auto shown = text_.shown();
         file_.frame_time = text_.number("a frame time", 1e300);
         if (!(file_.frame_time >= 1e-5 && file_.frame_time <= 1))
-            throw Fault{start, fmt::format("frame time {}, not between 0.00001 and 1 seconds", shown)};
+            throw TextFault{start, fmt::format("frame time {}, not between 0.00001 and 1 seconds", shown)};
         text_.skip_spaces();
         if (!text_.at_end() && *text_.at() != '\n') text_.fail("{} after the frame time", text_.shown());
     }
@@ -343,35 +250,64 @@ class MotionReader {
         text_.fail("{} numbers, not {}", numbers, file_.channels);
     }
 
-    void set_origin(const std::vector<double>& row, std::vector<double>& origin) const {
-        const auto& channels = file_.joints[0].channels;
-        for (std::size_t c = 0; c < channels.size(); ++c)
-            if (channels[c] < Channel::x_rotation) origin[c] = row[c];
+    /// Positions of the roots count from where they are in the first frame.
+    void set_origin(const std::vector<double>& row, std::vector<double>& origin) {
+        for (auto& joint : file_.joints) {
+            if (joint.parent >= 0) continue;
+            for (std::size_t c = 0; c < joint.channels.size(); ++c) {
+                if (!is_position(joint.channels[c])) continue;
+                const std::size_t column = joint.first_channel + c;
+                origin[column] = row[column];
+                joint.offset[axis_of(joint.channels[c])] = row[column];
+            }
+        }
     }
 
-    Text& text_;
-    BvhFile& file_;
+    TextReader& text_;
+    Recording& file_;
     std::vector<bool> rotation_;  ///< (channels) once asked for
 };
 
-}  // namespace
-
-double BvhFile::fps() const {
-    const double exact = 1 / frame_time, whole = std::round(exact);
-    return std::abs(exact - whole) < 0.0015 * whole ? whole : exact;
+/// The skeletons apart: joints and channels of each lie together. A root's OFFSET, where its position channels left any of it, tells
+/// where it stands in the first frame.
+std::vector<Recording> separate(Recording file) {
+    std::vector<std::size_t> first;
+    for (std::size_t j = 0; j < file.joints.size(); ++j)
+        if (file.joints[j].parent < 0) first.push_back(j);
+    first.push_back(file.joints.size());
+    std::vector<Recording> persons;
+    for (std::size_t p = 0; p + 1 < first.size(); ++p) {
+        Recording person{{}, 0, file.frames, file.frame_time, {}, {}};
+        const std::uint32_t first_channel = file.joints[first[p]].first_channel;
+        for (std::size_t j = first[p]; j < first[p + 1]; ++j) {
+            auto joint = std::move(file.joints[j]);
+            if (joint.parent >= 0) joint.parent -= static_cast<int>(first[p]);
+            joint.first_channel -= first_channel;
+            person.channels += static_cast<std::uint32_t>(joint.channels.size());
+            person.joints.push_back(std::move(joint));
+        }
+        person.origin = std::exchange(person.joints[0].offset, {});
+        const auto begin =
+            file.values.begin() + static_cast<std::ptrdiff_t>(std::size_t{first_channel} * file.frames);
+        const auto size = static_cast<std::ptrdiff_t>(std::size_t{person.channels} * file.frames);
+        if (first.size() == 2)
+            person.values = std::move(file.values);
+        else
+            person.values.assign(begin, begin + size);
+        persons.push_back(std::move(person));
+    }
+    return persons;
 }
 
-std::variant<BvhFile, Rejection> parse_bvh(std::string_view text) {
-    BvhFile file;
-    try {
-        Text reader(text);
+}  // namespace
+
+std::variant<std::vector<Recording>, Rejection> parse_bvh(std::string_view text) {
+    return read_text_with(text, [](TextReader& reader) {
+        Recording file;
         HierarchyReader(reader, file).read();
         MotionReader(reader, file).read();
-    } catch (const Fault& fault) {
-        const auto line = 1 + std::count(text.data(), fault.at, '\n');
-        return Rejection{Rejection::Kind::broken, fmt::format("line {}: {}", line, fault.reason)};
-    }
-    return file;
+        return separate(std::move(file));
+    });
 }
 
 }  // namespace actformer::ingest

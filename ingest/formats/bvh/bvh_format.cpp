@@ -2,158 +2,191 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <optional>
-#include <set>
+#include <filesystem>
+#include <iterator>
+#include <mutex>
+#include <utility>
 
+#include "base/checksum/checksum.hpp"
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "base/text/first_few.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/formats/skeletal/persons.hpp"
+#include "ingest/formats/skeletal/rearrange.hpp"
 
 namespace actformer::ingest {
 namespace {
 
-constexpr double most_limbs = 1 << 26;  // of one clip, all frames together: 800 MB of float32
+constexpr double most_limbs = 1 << 26;  // of one clip, all frames and persons together: 800 MB of float32
+constexpr std::uint64_t largest_text = std::uint64_t{128} << 20;
 
 struct BvhClip : RawClip {
-    std::vector<kernels::KinematicJoint> joints;
+    struct Person {
+        std::vector<kernels::KinematicJoint> joints;
+        std::vector<float> values;  ///< (channels, recorded)
+    };
+    std::vector<Person> persons;
     std::uint32_t recorded = 0;  ///< frames as recorded
     std::uint32_t frames = 0;    ///< frames once resampled
     float step = 1;              ///< recorded frames an output frame
-    std::vector<float> values;   ///< (channels, recorded)
 
-    std::size_t bytes() const override { return sizeof *this + sizeof(float) * values.size(); }
+    std::size_t bytes() const override {
+        std::size_t bytes = sizeof *this;
+        for (const auto& person : persons) bytes += sizeof(float) * person.values.size();
+        return bytes;
+    }
 };
 
-void check(const BvhOptions& options, const NamePattern& pattern) {
-    if (!(options.scale > 1e-6F && options.scale < 1e6F))
-        throw Error("scale {} is not a number of metres a unit; centimetres are 0.01", options.scale);
-    if (!(options.fps == 0 || (options.fps >= 1 && options.fps <= 1000)))
-        throw Error("{} frames a second cannot be resampled to; give 1 to 1000, or 0 for as recorded",
-                    options.fps);
-    if (!(options.smooth >= 0 && options.smooth <= 1000))
-        throw Error("smoothing over {} frames makes no sense; give 0 for none, or up to 1000",
-                    options.smooth);
-    for (const auto& split : options.splits)
-        for (const auto& condition : split.conditions)
-            if (std::find(pattern.fields().begin(), pattern.fields().end(), condition.field) ==
-                pattern.fields().end())
-                throw Error("split {}: the name pattern has no field '{}'; it has {}", split.name,
-                            condition.field, fmt::join(pattern.fields(), ", "));
-    if (std::set<std::string>(options.classes.begin(), options.classes.end()).size() !=
-        options.classes.size())
-        throw Error("a class is listed twice: {}", fmt::join(options.classes, ","));
+Rejection broken(std::string reason) {
+    return {Rejection::Kind::broken, std::move(reason)};
 }
 
-std::vector<std::string> classes_of(const BvhOptions& options, const std::vector<std::string>& actions) {
-    if (options.classes.empty()) return actions;
-    const bool any = std::any_of(actions.begin(), actions.end(), [&](const std::string& action) {
-        return std::find(options.classes.begin(), options.classes.end(), action) != options.classes.end();
-    });
-    if (!any)
-        throw Error("none of the classes {} is in a file name; the actions are {}",
-                    fmt::join(options.classes, ","), fmt::join(actions, ","));
-    return options.classes;
+Rejection dropped(std::string reason) {
+    return {Rejection::Kind::dropped, std::move(reason)};
 }
 
-std::size_t root_of(const BvhOptions& options, const BvhFile& example) {
-    if (options.root.empty()) return automatic_root(example);
-    const int root = find_joint(example, options.root);
-    if (root >= 0) return static_cast<std::size_t>(root);
-    std::vector<std::string> names;
-    for (const auto& joint : example.joints)
-        if (!joint.end_site) names.push_back(joint.name);
-    throw Error("no joint {} to take as root; the joints are {}", in_quotes(options.root),
-                fmt::join(names, ", "));
-}
-
-/// A kept joint whose position channels are all 0 where its OFFSET is not; -1 where there is none. Its file
-/// means positions to add to offsets; taken in their place, the limb would vanish.
-int joint_without_length(const BvhFile& file, const Skeleton& skeleton) {
-    double longest = 0;
-    for (const auto& joint : file.joints)
-        for (const double o : joint.offset) longest = std::max(longest, std::abs(o));
-    for (std::size_t j = skeleton.root + 1; j < file.joints.size(); ++j) {
-        const auto& joint = file.joints[j];
-        double lost = 0;
-        bool moves = !skeleton.kept[j];
-        for (std::uint32_t c = 0; c < joint.channels.size() && !moves; ++c) {
-            if (joint.channels[c] >= kernels::Channel::x_rotation) continue;
-            const auto values = file.channel(joint.first_channel + c);
-            moves = std::any_of(values.begin(), values.end(), [](float v) { return v != 0; });
-            lost = std::max(lost, std::abs(joint.offset[static_cast<std::size_t>(joint.channels[c])]));
-        }
-        if (!moves && lost > 1e-3 * longest) return static_cast<int>(j);
-    }
-    return -1;
-}
-
-/// The hierarchy's root stands at the origin: where the file puts it is a constant that re-centring takes
-/// away.
-std::vector<kernels::KinematicJoint> kinematic_joints(const BvhFile& file, const Skeleton& skeleton) {
-    std::vector<kernels::KinematicJoint> out(file.joints.size());
+std::vector<kernels::KinematicJoint> kinematic_joints(const Recording& recording, const Skeleton& skeleton) {
+    std::vector<kernels::KinematicJoint> out(recording.joints.size());
     for (std::size_t j = 0; j < out.size(); ++j) {
-        const auto& joint = file.joints[j];
+        const auto& joint = recording.joints[j];
         out[j].parent = joint.parent;
-        for (std::size_t d = 0; d < 3 && j > 0; ++d) out[j].offset[d] = static_cast<float>(joint.offset[d]);
+        for (std::size_t d = 0; d < 3; ++d) out[j].offset[d] = static_cast<float>(joint.offset[d]);
         out[j].channels = joint.channels;
         out[j].kept = skeleton.kept[j];
     }
     return out;
 }
 
-Rejection broken(std::string reason) {
-    return {Rejection::Kind::broken, std::move(reason)};
+/// Persons recorded in one world: each where it was as the first is where it was. Theirs are the frames that all have.
+std::string put_together(std::vector<Recording>& persons) {
+    std::uint32_t fewest = persons[0].frames, most = fewest;
+    for (const auto& person : persons) {
+        fewest = std::min(fewest, person.frames);
+        most = std::max(most, person.frames);
+        if (std::abs(person.fps() - persons[0].fps()) > 1e-3 * persons[0].fps())
+            return fmt::format("persons at {:.6g} and at {:.6g} frames a second are of different clips",
+                               persons[0].fps(), person.fps());
+    }
+    if (most > fewest + 1)
+        return fmt::format("persons of {} and of {} frames are of different clips", fewest, most);
+    for (auto& person : persons) {
+        if (person.frames > fewest) person = cut(person, 0, fewest);
+        if (&person == &persons[0]) continue;
+        Vector3 way{};
+        for (std::size_t d = 0; d < 3; ++d) way[d] = person.origin[d] - persons[0].origin[d];
+        shift(person, way);
+    }
+    return {};
+}
+
+std::uint32_t frame_at(const ClipPlace& place, double fps) {
+    return static_cast<std::uint32_t>(
+        std::min(std::round(place.in_seconds ? place.value * fps : place.value), 4e9));
 }
 
 }  // namespace
 
-BvhFormat::BvhFormat(BvhOptions options) : options_(std::move(options)), pattern_(options_.pattern) {
-    check(options_, pattern_);
+BvhFormat::BvhFormat(BvhOptions options)
+    : options_(std::move(options)),
+      names_(options_.pattern, options_.labels),
+      settings_(options_, names_.fields()),
+      recordings_(options_.asf) {}
+
+bool BvhFormat::is_wanted(const std::vector<NamedClip>& clips) const {
+    return options_.classes.empty() || std::any_of(clips.begin(), clips.end(), [&](const NamedClip& clip) {
+               return std::find(options_.classes.begin(), options_.classes.end(), clip.action) !=
+                      options_.classes.end();
+           });
 }
 
 void BvhFormat::survey(const RawText& raw) {
-    const auto fields = pattern_.match(raw.stem);
-    std::optional<std::variant<BvhFile, Rejection>> parsed;
-    if (fields) {
-        std::unique_lock lock(surveying_);
-        const bool wanted = !found_.example || raw.index < found_.example_index;
-        lock.unlock();
-        if (wanted) parsed = parse_bvh(raw.text);
+    if (Recordings::is_asf(raw)) {
+        const std::unique_lock lock(surveying_);
+        return recordings_.add_asf(raw);
     }
-    const std::lock_guard lock(surveying_);
-    if (found_.first_name.empty() || raw.index < found_.first_index) {
-        found_.first_name = raw.stem;
-        found_.first_index = raw.index;
+    const auto clips = names_.clips_of(raw);
+    const bool fits = std::holds_alternative<std::vector<NamedClip>>(clips);
+    {
+        const std::unique_lock lock(surveying_);
+        names_.note(raw);
+        if (!fits) return;
+        for (const auto& clip : std::get<std::vector<NamedClip>>(clips)) actions_.insert(clip.action);
+        if (!is_wanted(std::get<std::vector<NamedClip>>(clips))) return;
+        if (Recordings::is_amc(raw) && !recordings_.has_own_asf(raw)) {
+            waiting_.push_back({std::string(raw.path), std::string(raw.stem),
+                                std::string(raw.text) + std::string(text_padding, '\0'),
+                                std::string(raw.inside), raw.index});
+            return;
+        }
     }
-    if (fields) found_.actions.insert((*fields)[pattern_.action()]);
-    if (!parsed) return;
-    if (auto* sound = std::get_if<BvhFile>(&*parsed)) {
-        if (found_.example && found_.example_index < raw.index) return;
-        found_.example = std::move(*sound);
-        found_.example_index = raw.index;
-    } else if (found_.fault.empty() || raw.index < found_.fault_index) {
-        found_.fault = fmt::format("{}: {}", raw.path, std::get<Rejection>(*parsed).reason);
-        found_.fault_index = raw.index;
+    look_at(raw);
+}
+
+void BvhFormat::look_at(const RawText& raw) {
+    std::shared_lock reading(surveying_);
+    auto parsed = recordings_.read(raw);
+    reading.unlock();
+    if (const auto* rejection = std::get_if<Rejection>(&parsed)) {
+        const std::unique_lock lock(surveying_);
+        if (fault_.empty() || raw.index < fault_index_) {
+            fault_ = fmt::format("{}: {}", raw.path, rejection->reason);
+            fault_index_ = raw.index;
+        }
+        return;
     }
+    auto& persons = std::get<std::vector<Recording>>(parsed);
+    auto file = BvhSurvey::look_at(persons, options_, settings_);
+    file.index = raw.index;
+    file.path = raw.path;
+    file.name = printable(raw.stem);
+    file.group = names_.group_of(raw);
+    const std::unique_lock lock(surveying_);
+    survey_.add(std::move(file), persons.front(), options_.end_sites);
 }
 
 void BvhFormat::settle() {
-    if (found_.actions.empty())
-        throw Error("no file name fits the pattern '{}'; there is {}", printable(pattern_.text()),
-                    found_.first_name.empty() ? "no file" : in_quotes(found_.first_name));
-    if (!found_.example)
+    names_.settle();
+    for (const auto& waiting : std::exchange(waiting_, {})) look_at(waiting.raw());
+    const auto classes = wanted_classes();
+    if (survey_.files().empty())
         throw Error("no BVH file is sound; the first fault is in {}",
-                    found_.fault.empty() ? "a file that cannot be read" : printable(found_.fault));
-    const auto& example = *found_.example;
-    source_fps_ = example.fps();
+                    fault_.empty() ? "a file that cannot be read" : printable(fault_));
+    decision_ = survey_.decide(options_, settings_);
+    if (auto unused = names_.unused_labels(); !unused.empty()) decision_.remarks.push_back(std::move(unused));
+    gather_groups();
     DatasetHeader header;
     header.name = options_.dataset;
-    header.topology = skeleton_below(example, root_of(options_, example), options_.end_sites).topology;
-    header.fps = options_.fps > 0 ? options_.fps : source_fps_;
+    header.topology = decision_.topology;
+    header.persons = static_cast<std::uint32_t>(decision_.persons);
+    header.fps = options_.fps > 0 ? options_.fps : decision_.fps;
     header.centre_windows = options_.centre_windows;
-    header.classes = classes_of(options_, {found_.actions.begin(), found_.actions.end()});
-    header.fields = pattern_.fields();
+    header.classes = classes;
+    header.fields = names_.fields();
     header.splits = options_.splits;
     datasets_.push_back(std::move(header));
+}
+
+std::vector<std::string> BvhFormat::wanted_classes() const {
+    if (options_.classes.empty()) return {actions_.begin(), actions_.end()};
+    const bool any = std::any_of(options_.classes.begin(), options_.classes.end(),
+                                 [&](const std::string& action) { return actions_.contains(action); });
+    if (!any)
+        throw Error("none of the classes {} is in a file name; the actions are {}",
+                    fmt::join(options_.classes, ","), fmt::join(actions_, ","));
+    return options_.classes;
+}
+
+void BvhFormat::gather_groups() {
+    for (const auto& file : survey_.files())
+        if (!file.group.empty()) groups_[file.group].push_back(file.path);
+    for (const auto& [group, paths] : groups_)
+        for (const auto& path : paths)
+            if (std::error_code error; paths.size() > 1 && !std::filesystem::is_regular_file(path, error))
+                throw Error(
+                    "{}: persons in files of their own cannot be read out of an archive; unpack it and give "
+                    "the folder",
+                    path);
 }
 
 std::string BvhFormat::settings() const {
@@ -164,61 +197,151 @@ std::string BvhFormat::settings() const {
             splits += fmt::format(" {}{}:{}", c.field, c.negated ? "!" : "", fmt::join(c.values, ","));
         splits += "]";
     }
+    std::string more;
+    if (settings_.up != Up::y) more += fmt::format(", {} up", name_of(settings_.up));
+    if (settings_.positions != Positions::told)
+        more += fmt::format(", positions: {}", name_of(settings_.positions));
+    if (options_.recorded_fps > 0)
+        more += fmt::format(", recorded at {} frames a second", options_.recorded_fps);
+    if (options_.skip_first > 0) more += fmt::format(", without the first {} frames", options_.skip_first);
+    if (!options_.start.empty()) more += fmt::format(", from {}", options_.start);
+    if (!options_.end.empty()) more += fmt::format(", to {}", options_.end);
+    if (!options_.asf.empty()) more += fmt::format(", skeleton {}", checksum_file(options_.asf));
     return fmt::format(
-        "bvh: dataset '{}', names '{}', {} metres a unit, {} frames a second, Gaussian smoothing sigma {} "
+        "bvh: dataset '{}', {}, {} persons a clip, {} metres a unit, {} frames a second, Gaussian smoothing "
+        "sigma {} "
         "frames, end "
-        "sites {}, root '{}', joints {}, classes {}, splits{}{}",
-        options_.dataset, pattern_.text(), options_.scale, datasets_[0].fps, options_.smooth,
-        options_.end_sites ? "kept" : "dropped", datasets_[0].topology.names[0],
+        "sites {}, root '{}', joints {}, classes {}, splits{}{}{}",
+        options_.dataset, names_.settings(), decision_.persons, decision_.scale, datasets_[0].fps,
+        options_.smooth, options_.end_sites ? "kept" : "dropped", datasets_[0].topology.names[0],
         fmt::join(datasets_[0].topology.names, ","), fmt::join(datasets_[0].classes, ","), splits,
-        options_.centre_windows ? ", windows centred" : "");
+        options_.centre_windows ? ", windows centred" : "", more);
 }
 
-ParsedClip BvhFormat::parse(const RawText& raw) const {
-    const DatasetHeader& header = datasets_[0];
-    const auto fields = pattern_.match(raw.stem);
-    if (!fields)
-        return broken(fmt::format("the name does not fit the pattern '{}'", printable(pattern_.text())));
-    const auto& action = (*fields)[pattern_.action()];
-    const auto label = std::find(header.classes.begin(), header.classes.end(), action);
-    if (label == header.classes.end())
-        return Rejection{Rejection::Kind::dropped, fmt::format("action '{}' is none of the classes", action)};
+void BvhFormat::read(const RawText& raw, ClipSink& sink) const {
+    if (Recordings::is_asf(raw)) return;
+    const auto named = names_.clips_of(raw);
+    if (const auto* rejection = std::get_if<Rejection>(&named)) return sink.take(*rejection);
+    const auto& clips = std::get<std::vector<NamedClip>>(named);
+    if (!is_wanted(clips))
+        return sink.take(dropped(fmt::format("action '{}' is none of the classes", clips[0].action)));
+    const auto* group = group_of(raw);
+    if (group && group->front() != raw.path) return;  // a person of a clip that another file stands for
 
-    auto parsed = parse_bvh(raw.text);
-    if (auto* rejection = std::get_if<Rejection>(&parsed)) return std::move(*rejection);
-    auto& file = std::get<BvhFile>(parsed);
+    auto parsed = persons_of(raw, group);
+    if (auto* rejection = std::get_if<Rejection>(&parsed)) return sink.take(std::move(*rejection));
+    auto& persons = std::get<std::vector<Recording>>(parsed);
+    std::vector<Skeleton> skeletons;
+    if (auto fault = fit(persons, skeletons)) return sink.take(std::move(*fault));
+    for (const auto& clip : clips) {
+        auto made = make_clip(clip, persons, skeletons);
+        auto* rejection = std::get_if<Rejection>(&made);
+        if (rejection && clips.size() > 1)
+            rejection->reason = fmt::format("clip {}: {}", clip.name, rejection->reason);
+        sink.take(std::move(made));
+    }
+}
 
-    const int root = find_joint(file, header.topology.names[0]);
-    if (root < 0)
-        return broken(fmt::format("no joint '{}', the root of the first file", header.topology.names[0]));
-    const auto skeleton = skeleton_below(file, static_cast<std::size_t>(root), header.topology);
-    if (const auto difference = first_difference(skeleton.topology, header.topology); !difference.empty())
-        return broken(fmt::format("another skeleton than the first file's: {}", difference));
-    if (const int joint = joint_without_length(file, skeleton); joint >= 0)
-        return broken(
-            fmt::format("the position channels of {} are 0 in place of its OFFSET; remove them",
-                        file.joints[joint].end_site ? "an End Site" : in_quotes(file.joints[joint].name)));
-    const double fps = file.fps();
-    if (options_.fps == 0 && std::abs(fps - source_fps_) > 1e-4 * source_fps_)
+const BvhFormat::Paths* BvhFormat::group_of(const RawText& raw) const {
+    const auto key = names_.group_of(raw);
+    const auto found = key.empty() ? groups_.end() : groups_.find(key);
+    const bool in_it = found != groups_.end() &&
+                       std::find(found->second.begin(), found->second.end(), raw.path) != found->second.end();
+    return in_it ? &found->second : nullptr;
+}
+
+std::variant<std::vector<Recording>, Rejection> BvhFormat::persons_of(const RawText& raw,
+                                                                      const Paths* group) const {
+    auto parsed = recordings_.read(raw);
+    if (std::holds_alternative<Rejection>(parsed)) return parsed;
+    auto& persons = std::get<std::vector<Recording>>(parsed);
+    std::vector<char> scratch;
+    for (std::size_t i = 1; group && i < group->size(); ++i) {
+        const auto& path = (*group)[i];
+        auto other =
+            recordings_.read({path, raw.stem, read_text(path, scratch, largest_text), path, raw.index});
+        if (auto* rejection = std::get_if<Rejection>(&other))
+            return broken(fmt::format("{}: {}", printable(path), rejection->reason));
+        auto& more = std::get<std::vector<Recording>>(other);
+        std::move(more.begin(), more.end(), std::back_inserter(persons));
+    }
+    if (persons.size() != decision_.persons)
+        return dropped(fmt::format("persons: {}, not {}; --persons {} takes such clips", persons.size(),
+                                   decision_.persons, persons.size()));
+    if (auto fault = put_together(persons); !fault.empty()) return broken(std::move(fault));
+    return parsed;
+}
+
+std::optional<Rejection> BvhFormat::fit(std::vector<Recording>& persons,
+                                        std::vector<Skeleton>& skeletons) const {
+    for (auto& person : persons) {
+        auto found = find_skeleton(person, decision_.topology);
+        if (const auto* difference = std::get_if<std::string>(&found))
+            return broken(fmt::format("another skeleton than that of most files: {}", *difference));
+        auto& skeleton = skeletons.emplace_back(std::get<Skeleton>(std::move(found)));
+        if (settings_.positions == Positions::told)
+            if (const auto joints = joints_that_vanish(person, skeleton); !joints.empty())
+                return broken(
+                    fmt::format("the position channels of {} are near 0, where their OFFSETs are not; "
+                                "--positions add adds "
+                                "the two, and --positions ignore leaves the channels out",
+                                fmt::join(joints, ", ")));
+        settle_positions(person, skeleton, settings_.positions);
+        put_in_order(person, skeleton, decision_.topology);
+        turn_up(person, skeleton, settings_.up);
+    }
+    const double fps = options_.recorded_fps > 0 ? options_.recorded_fps : persons[0].fps();
+    if (options_.fps == 0 && std::abs(fps - decision_.fps) > 1e-4 * decision_.fps)
         return broken(fmt::format(
-            "{:.6g} frames a second, not {:.6g} as in the first file; --fps resamples all to one rate", fps,
-            source_fps_));
+            "{:.6g} frames a second, not {:.6g} as in most files; --fps resamples all to one rate", fps,
+            decision_.fps));
+    return {};
+}
+
+ParsedClip BvhFormat::make_clip(const NamedClip& named, const std::vector<Recording>& persons,
+                                const std::vector<Skeleton>& skeletons) const {
+    const DatasetHeader& header = datasets_[0];
+    const auto label = std::find(header.classes.begin(), header.classes.end(), named.action);
+    if (label == header.classes.end())
+        return dropped(fmt::format("action '{}' is none of the classes", named.action));
+
+    const double fps = options_.recorded_fps > 0 ? options_.recorded_fps : persons[0].fps();
+    const std::uint32_t recorded = persons[0].frames;
+    const std::uint32_t first =
+        std::max({options_.skip_first, frame_at(settings_.start, fps), named.start.value_or(0)});
+    const std::uint32_t last = std::min(
+        {recorded, settings_.end ? frame_at(*settings_.end, fps) : recorded, named.end.value_or(recorded)});
+    if (first >= last)
+        return broken(fmt::format("no frame is left of {}: from {} to {}", recorded, first, last));
 
     const double step = options_.fps > 0 ? fps / options_.fps : 1;
-    const double frames = std::floor((file.frames - 1) / step + 1e-4) + 1;
-    if (frames * static_cast<double>(header.topology.joints()) > most_limbs)
+    const double frames = std::floor((last - first - 1) / step + 1e-4) + 1;
+    if (frames * static_cast<double>(header.topology.joints() * persons.size()) > most_limbs)
         return broken(fmt::format("{:.0f} frames of {} joints are too many for one clip", frames,
                                   header.topology.joints()));
     auto clip = std::make_unique<BvhClip>();
-    clip->name = printable(raw.stem);
+    clip->name = named.name;
     clip->label = static_cast<std::uint32_t>(label - header.classes.begin());
-    clip->fields = *fields;
-    clip->joints = kinematic_joints(file, skeleton);
-    clip->recorded = file.frames;
+    clip->fields = named.fields;
+    clip->recorded = last - first;
     clip->frames = static_cast<std::uint32_t>(frames);
     clip->step = static_cast<float>(step);
-    clip->values = std::move(file.values);
+    for (std::size_t p = 0; p < persons.size(); ++p) {
+        auto person = cut(persons[p], first, last);
+        if (p == 0) clip->doubts = doubts_of(person, skeletons[p], first);
+        clip->persons.push_back({kinematic_joints(person, skeletons[p]), std::move(person.values)});
+    }
     return clip;
+}
+
+std::vector<std::string> BvhFormat::doubts_of(const Recording& person, const Skeleton& skeleton,
+                                              std::uint32_t first) {
+    if (person.frames == 1) return {"a single frame holds no motion"};
+    if (stands_still(person)) return {"nothing moves"};
+    if (begins_with_jump(person, skeleton.root))
+        return {fmt::format(
+            "the first frame is a jump, as from a reference pose; --skip-first {} leaves it out", first + 1)};
+    return {};
 }
 
 kernels::CleanedBatch BvhFormat::clean(kernels::Device& device, std::size_t dataset,
@@ -226,18 +349,21 @@ kernels::CleanedBatch BvhFormat::clean(kernels::Device& device, std::size_t data
                                        std::vector<std::uint32_t>& frames) const {
     kernels::ClipBatch batch;
     batch.joints = static_cast<std::uint32_t>(datasets_[dataset].topology.joints());
+    batch.persons = datasets_[dataset].persons;
     batch.first = {0};
     std::vector<kernels::KinematicClip> kinematics;
     for (const auto& raw : clips) {
         const auto& clip = static_cast<const BvhClip&>(*raw);
-        kinematics.push_back({clip.joints, clip.recorded, clip.values});
         batch.frames.push_back(clip.frames);
         batch.step.push_back(clip.step);
-        batch.first.push_back(batch.first.back() + clip.recorded);
-        for (std::uint32_t t = 0; t < clip.recorded; ++t) batch.times.push_back(static_cast<float>(t));
+        for (const auto& person : clip.persons) {
+            kinematics.push_back({person.joints, clip.recorded, person.values});
+            batch.first.push_back(batch.first.back() + clip.recorded);
+            for (std::uint32_t t = 0; t < clip.recorded; ++t) batch.times.push_back(static_cast<float>(t));
+        }
     }
     frames = batch.frames;
-    const auto limbs = kernels::forward_kinematics(device, kinematics, options_.scale);
+    const auto limbs = kernels::forward_kinematics(device, kinematics, decision_.scale);
     const auto radius = static_cast<std::uint32_t>(std::ceil(4 * options_.smooth));
     return kernels::clean(device, batch, limbs, {options_.smooth, radius});
 }

@@ -1,72 +1,84 @@
-// BVH files of one skeleton as one dataset for the ingest pipeline.
+// BVH and ASF/AMC files as one dataset for the ingest pipeline.
 #pragma once
 
-#include <mutex>
+#include <map>
 #include <optional>
 #include <set>
+#include <shared_mutex>
+#include <string>
+#include <vector>
 
-#include "ingest/formats/bvh/bvh_file.hpp"
-#include "ingest/formats/bvh/skeleton.hpp"
+#include "ingest/formats/bvh/bvh_options.hpp"
+#include "ingest/formats/bvh/bvh_survey.hpp"
+#include "ingest/formats/bvh/recordings.hpp"
+#include "ingest/formats/clip_names.hpp"
 #include "ingest/formats/format.hpp"
-#include "ingest/formats/name_pattern.hpp"
 
 namespace actformer::ingest {
 
-struct BvhOptions {
-    std::string dataset;          ///< the dataset's name
-    std::string pattern;          ///< of file names, as NamePattern takes it
-    float scale = 0.01F;          ///< metres a unit of the files; most are in centimetres
-    double fps = 0;               ///< frames a second to resample to; 0: as recorded
-    float smooth = 0;             ///< sigma of a Gaussian over frames; 0: none
-    bool end_sites = false;       ///< keep end sites as joints
-    bool centre_windows = false;  ///< see DatasetHeader
-    std::string root;             ///< joint to take as root; empty: automatic_root of the first sound file
-    std::vector<std::string> classes;  ///< actions in the order of their labels; empty: all, sorted
-    std::vector<Split> splits;         ///< over the pattern's fields
-};
-
-/// One person a clip. All files must have the joints of the first sound one that fits the pattern, in its order; offsets and
-/// channels may differ.
+/// All clips have the joints of the commonest skeleton among the files whose actions are wanted, matched by name; offsets, channels
+/// and the order of siblings may differ. Persons of a clip are the ROOTs of its file, or files that differ in the field {person}.
 class BvhFormat : public Format {
   public:
     /// Throws Error where an option makes no sense.
     explicit BvhFormat(BvhOptions options);
 
-    std::vector<std::string_view> extensions() const override { return {".bvh"}; }
+    std::vector<std::string_view> extensions() const override { return {".bvh", ".amc", ".asf"}; }
 
     Survey surveys() const override { return Survey::texts; }
     void survey(const RawText& raw) override;
 
-    /// Takes the topology from the first sound file and the classes from the names. Throws Error where no name fits the pattern,
-    /// no file is sound, none of the classes is among the actions, or there is no such root.
+    /// Takes skeleton, root, rate, persons and scale from the files surveyed, and the classes from their names. Throws Error where no
+    /// name fits, no file is sound, none of the classes is among the actions, or there is no such root.
     void settle() override;
 
     const std::vector<DatasetHeader>& datasets() const override { return datasets_; }
+    bool drops_empty_classes() const override { return options_.classes.empty(); }
     std::string settings() const override;
-    void read(const RawText& raw, ClipSink& sink) const override { sink.take(parse(raw)); }
+    std::vector<std::string> remarks() const override { return decision_.remarks; }
+    void read(const RawText& raw, ClipSink& sink) const override;
     kernels::CleanedBatch clean(kernels::Device& device, std::size_t dataset,
                                 std::span<const std::unique_ptr<RawClip>> clips,
                                 std::vector<std::uint32_t>& frames) const override;
 
-    ParsedClip parse(const RawText& raw) const;
-
   private:
-    /// What the survey has found so far.
-    struct Found {
-        std::set<std::string> actions;  ///< in the names, each once
-        std::string first_name;         ///< of the first file, fitting or not
-        std::uint64_t first_index = 0;
-        std::optional<BvhFile> example;  ///< the first sound file
-        std::uint64_t example_index = 0;
-        std::string fault;  ///< of the first file that fits and is not sound
-        std::uint64_t fault_index = 0;
+    using Paths = std::vector<std::string>;
+
+    /// An .amc whose skeleton had not come yet when it did.
+    struct Waiting {
+        std::string path, stem, text, inside;
+        std::uint64_t index = 0;
+
+        RawText raw() const {
+            return {path, stem, std::string_view(text).substr(0, text.size() - 64), inside, index};
+        }
     };
 
+    bool is_wanted(const std::vector<NamedClip>& clips) const;
+    void look_at(const RawText& raw);
+    std::vector<std::string> wanted_classes() const;
+    void gather_groups();
+
+    const Paths* group_of(const RawText& raw) const;
+    std::variant<std::vector<Recording>, Rejection> persons_of(const RawText& raw, const Paths* group) const;
+    std::optional<Rejection> fit(std::vector<Recording>& persons, std::vector<Skeleton>& skeletons) const;
+    ParsedClip make_clip(const NamedClip& named, const std::vector<Recording>& persons,
+                         const std::vector<Skeleton>& skeletons) const;
+    static std::vector<std::string> doubts_of(const Recording& person, const Skeleton& skeleton,
+                                              std::uint32_t first);
+
     BvhOptions options_;
-    NamePattern pattern_;
-    std::mutex surveying_;
-    Found found_;
-    double source_fps_ = 0;  ///< of the example
+    ClipNames names_;
+    BvhSettings settings_;
+    Recordings recordings_;
+    std::shared_mutex surveying_;
+    BvhSurvey survey_;
+    std::set<std::string> actions_;  ///< of all names
+    std::string fault_;              ///< of the first file that fits and is not sound
+    std::uint64_t fault_index_ = 0;
+    std::vector<Waiting> waiting_;
+    std::map<std::string, Paths> groups_;  ///< files that are persons of one clip, in the source's order
+    BvhDecision decision_;
     std::vector<DatasetHeader> datasets_;
 };
 

@@ -51,6 +51,19 @@ TEST(NamePattern, IgnoresTheExtension) {
     EXPECT_EQ(match("{action}.bvh", "run"), Values{"run"});
 }
 
+TEST(NamePattern, SpeaksOfFolders) {
+    const NamePattern pattern("{action}/{index}");
+    EXPECT_EQ(pattern.match("/data/captures/walk/001"), (Values{"walk", "001"}));
+    EXPECT_EQ(pattern.match("walk/001"), (Values{"walk", "001"}));
+    EXPECT_EQ(pattern.match("001"), std::nullopt);
+    EXPECT_EQ(match("{subject}/mocap/{*}_{action}.bvh", "/x/s1/mocap/a_run"), (Values{"s1", "run"}));
+    EXPECT_EQ(match("{subject}/mocap/{*}_{action}", "/x/s1/video/a_run"), Values{});
+    // No field reaches across a /, and a pattern without one sees the file's name alone.
+    EXPECT_EQ(match("a{action}b/{n}", "a/xb/1"), Values{});
+    EXPECT_EQ(match("{action}", "walk/001"), Values{"001"});
+    EXPECT_EQ(NamePattern("{take}/{person}", false).action(), 2U);
+}
+
 TEST(NamePattern, MakesValuesPrintable) {
     EXPECT_EQ(match("{action}", "r\xFFn\n"), Values{"r\\xFFn\\x0A"});
 }
@@ -58,7 +71,8 @@ TEST(NamePattern, MakesValuesPrintable) {
 TEST(NamePattern, RefusesBadPatternsShowingTheRightForm) {
     for (const char* bad :
          {"", "walk", "{style}", "{action", "action}", "{}_{action}", "{action}{style}", "{action}{*}",
-          "{action}_{action}", "{action}_{a b}", "{action}_{{n}}", "{action}_{label}", "{*}"})
+          "{action}_{action}", "{action}_{a b}", "{action}_{{n}}", "{action}_{label}", "{*}", "{action}/",
+          "/{action}", "{action}//{n}", "{action}/{action}"})
         try {
             const NamePattern pattern(bad);
             ADD_FAILURE() << "took " << bad;

@@ -111,7 +111,7 @@ class LineFormat : public Format {
     std::vector<DatasetHeader> datasets_;
 };
 
-struct Pipeline : testing::Test {
+struct PipelineOnDevice : testing::Test {
     IngestSummary run(LineFormat& format, const char* out = "out", unsigned threads = 3) {
         IngestRequest request;
         request.raw = {dir / "raw"};
@@ -145,7 +145,7 @@ struct Pipeline : testing::Test {
 
 }  // namespace
 
-TEST_F(Pipeline, TakesManyClipsOfAFileInOrder) {
+TEST_F(PipelineOnDevice, TakesManyClipsOfAFileInOrder) {
     write_file(dir / "raw/a.lines", "x 1 2\n!too short\n?y 2 3\n!too long\ny 0 1\n?z 3 4\n");
     write_file(dir / "raw/b/c.txt", "w 0 5\n");
     LineFormat format;
@@ -176,7 +176,7 @@ TEST_F(Pipeline, TakesManyClipsOfAFileInOrder) {
     EXPECT_EQ(again.doubts[0].clips, 2U);
 }
 
-TEST_F(Pipeline, HoldsFewClipsOfALargeFileAtOnce) {
+TEST_F(PipelineOnDevice, HoldsFewClipsOfALargeFileAtOnce) {
     write_file(dir / "raw/large.lines", many("l", 2000));
     write_file(dir / "raw/small.lines", many("s", 3));
     write_file(dir / "raw/zlarge.lines", many("z", 500));
@@ -196,7 +196,7 @@ TEST_F(Pipeline, HoldsFewClipsOfALargeFileAtOnce) {
     EXPECT_TRUE(verify_dataset(dir / "out").faults.empty());
 }
 
-TEST_F(Pipeline, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
+TEST_F(PipelineOnDevice, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
     // More than one tranche: the first is kept.
     for (int i = 0; i < 5000; ++i)
         write_file(dir / fmt::format("raw/{:04}.lines", i), fmt::format("n{} 1 2\n", i));
@@ -211,7 +211,7 @@ TEST_F(Pipeline, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
     EXPECT_EQ(contents(dir / "out"), contents(dir / "whole"));
 }
 
-TEST_F(Pipeline, SurveysEveryFileBeforeTheFirstIsRead) {
+TEST_F(PipelineOnDevice, SurveysEveryFileBeforeTheFirstIsRead) {
     write_file(dir / "raw/a.lines", "x 1 2\n");
     write_file(dir / "raw/b/refused.lines", "y 1 2\n");
     write_file(dir / "raw/b/c.txt", "w 0 5\n");
@@ -225,7 +225,7 @@ TEST_F(Pipeline, SurveysEveryFileBeforeTheFirstIsRead) {
     EXPECT_TRUE(nothing.seen.empty());
 }
 
-TEST_F(Pipeline, StopsAtABrokenClipWhenStrict) {
+TEST_F(PipelineOnDevice, StopsAtABrokenClipWhenStrict) {
     write_file(dir / "raw/a.lines", "x 1 2\n!too short\n");
     strict = true;
     LineFormat format;
@@ -239,7 +239,7 @@ TEST_F(Pipeline, StopsAtABrokenClipWhenStrict) {
     EXPECT_FALSE(fs::exists(dir / "out"));
 }
 
-TEST_F(Pipeline, DropsClassesThatNoClipHas) {
+TEST_F(PipelineOnDevice, DropsClassesThatNoClipHas) {
     write_file(dir / "raw/a.lines", "x 1 2\ny 3 2\nz 3 1\n");
     LineFormat kept, dropping;
     run(kept, "kept");

@@ -142,6 +142,11 @@ void survey(BvhFormat& format, const std::filesystem::path& archive) {
     format.settle();
 }
 
+struct Collected : ClipSink {
+    void take(ParsedClip clip) override { clips.push_back(std::move(clip)); }
+    std::vector<ParsedClip> clips;
+};
+
 TEST(BvhBnr, RealClipsComeOutAsPlainDoublePrecisionHasThem) {
     const std::filesystem::path archive = test::shared("data/bnr/dataset-1.tar.xz");
     if (!std::filesystem::exists(archive)) GTEST_SKIP() << archive << " is not at hand";
@@ -164,10 +169,12 @@ TEST(BvhBnr, RealClipsComeOutAsPlainDoublePrecisionHasThem) {
         if (files++ % 8 != 0) continue;
         SCOPED_TRACE(file.path);
         const auto text = file.text(scratch);
-        auto parsed = format.parse(file.raw(text));
-        if (auto* r = std::get_if<Rejection>(&parsed)) FAIL() << r->reason;
+        Collected out;
+        format.read(file.raw(text), out);
+        ASSERT_EQ(out.clips.size(), 1U);
+        if (auto* r = std::get_if<Rejection>(&out.clips[0])) FAIL() << r->reason;
         std::vector<std::unique_ptr<RawClip>> clips;
-        clips.push_back(std::get<std::unique_ptr<RawClip>>(std::move(parsed)));
+        clips.push_back(std::get<std::unique_ptr<RawClip>>(std::move(out.clips[0])));
         std::vector<std::uint32_t> frames;
         expect_agreement(read_plainly(text), header.topology, format.clean(device, 0, clips, frames));
         if (HasFatalFailure()) return;

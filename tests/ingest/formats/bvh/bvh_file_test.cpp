@@ -10,18 +10,24 @@ namespace {
 
 using kernels::Channel;
 
-std::variant<BvhFile, Rejection> parse(const std::string& text) {
+std::variant<std::vector<Recording>, Rejection> parse(const std::string& text) {
     const std::string padded = text + std::string(64, '\0');
     return parse_bvh(std::string_view(padded).substr(0, text.size()));
 }
 
-BvhFile sound(const std::string& text) {
+std::vector<Recording> persons(const std::string& text) {
     auto result = parse(text);
     if (const auto* r = std::get_if<Rejection>(&result)) {
         ADD_FAILURE() << r->reason;
         return {};
     }
-    return std::get<BvhFile>(std::move(result));
+    return std::get<std::vector<Recording>>(std::move(result));
+}
+
+Recording sound(const std::string& text) {
+    auto found = persons(text);
+    EXPECT_EQ(found.size(), 1U);
+    return found.empty() ? Recording() : std::move(found[0]);
 }
 
 std::string reason(const std::string& text) {
@@ -65,7 +71,7 @@ std::string with_frame(const std::string& line) {
 }
 
 TEST(BvhFile, ReadsHierarchyAndMotion) {
-    const BvhFile file = sound(simple);
+    const Recording file = sound(simple);
     ASSERT_EQ(file.joints.size(), 3U);
     EXPECT_EQ(file.joints[0].name, "Hips");
     EXPECT_EQ(file.joints[0].parent, -1);
@@ -225,8 +231,9 @@ TEST(BvhFile, RefusesHierarchies) {
     EXPECT_EQ(reason(replaced(simple, "}\nMOTION", "MOTION")),
               "line 15: 'MOTION' inside joint 'Hips': a { without its }");
     EXPECT_EQ(reason(replaced(simple, "}\nMOTION", "}\n}\nMOTION")), "line 16: '}' in place of MOTION");
-    EXPECT_EQ(reason(hierarchy + "ROOT Hips2\n{\n}\n" + motion),
-              "line 16: a second ROOT; give every skeleton a file of its own");
+    EXPECT_EQ(reason(hierarchy + "ROOT Hips2\n{\n}\n" + motion), "line 18: joint 'Hips2' has no OFFSET");
+    EXPECT_EQ(reason(replaced(simple, "JOINT Left Leg", "ROOT Left Leg")),
+              "line 6: 'ROOT' in place of OFFSET, CHANNELS, JOINT, End Site or }");
     EXPECT_EQ(reason(replaced(simple, "Left Leg", "Hips")), "line 6: a second joint 'Hips'");
     EXPECT_EQ(reason(replaced(simple, "    OFFSET 1 -2 3e1\n", "")),
               "line 13: joint 'Left Leg' has no OFFSET");
@@ -239,6 +246,29 @@ TEST(BvhFile, RefusesHierarchies) {
               "line 8: a second OFFSET of joint 'Left Leg'");
     EXPECT_EQ(reason(replaced(simple, "OFFSET 0 -4 0", "OFFSET 0 -4 0 JOINT x")),
               "line 12: 'JOINT' in place of OFFSET, CHANNELS, JOINT, End Site or }");
+}
+
+TEST(BvhFile, TwoRootsAreTwoPersons) {
+    const std::string second =
+        "ROOT Hips\n{\nOFFSET 7 8 9\nCHANNELS 2 Zposition Xrotation\nJOINT Leg\n{\nOFFSET 0 -5 0\nCHANNELS 1 "
+        "Xrotation\n}\n}\n";
+    auto text = hierarchy + second + motion;
+    text = replaced(text, "7 8 9\n2 2", "7 8 9 20 -1 -2\n2 2");
+    text = replaced(text, "7 8 370\n", "7 8 370 21 -3 -4\n");
+    const auto both = persons(text);
+    ASSERT_EQ(both.size(), 2U);
+    const auto alone = sound(simple);
+    EXPECT_EQ(both[0].values, alone.values);
+    EXPECT_EQ(both[0].origin, (std::array<double, 3>{1, 2, 3}));
+    ASSERT_EQ(both[1].joints.size(), 2U);
+    EXPECT_EQ(both[1].joints[1].name, "Leg");
+    EXPECT_EQ(both[1].joints[1].parent, 0);
+    EXPECT_EQ(both[1].joints[1].first_channel, 2U);
+    EXPECT_EQ(both[1].channels, 3U);
+    EXPECT_EQ(both[1].values, (std::vector<float>{0, 1, -1, -3, -2, -4}));
+    // Where it has no position channel it stands where its OFFSET says.
+    EXPECT_EQ(both[1].origin, (std::array<double, 3>{7, 8, 20}));
+    EXPECT_EQ(both[1].joints[0].offset, (std::array<double, 3>{0, 0, 0}));
 }
 
 TEST(BvhFile, RefusesBottomlessNestingWithoutRecursion) {

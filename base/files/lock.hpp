@@ -1,0 +1,31 @@
+// Keeping other processes out of a file or a folder.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace actformer {
+
+/// Held while it lives, by way of a file that stays there. It goes with the process that holds it, killed or not. Where the file
+/// system knows no locks nobody is kept out.
+class FileLock {
+  public:
+    /// Waits for whoever holds it. Where `path` cannot be made nobody is kept out.
+    explicit FileLock(const std::filesystem::path& path);
+
+    /// None where another process holds it. Throws Error where `path` cannot be made.
+    static std::optional<FileLock> if_free(const std::filesystem::path& path);
+
+    /// Whether some process holds it now. Makes no file.
+    static bool is_held(const std::filesystem::path& path);
+
+    ~FileLock();
+    FileLock(FileLock&& other) noexcept;
+    FileLock& operator=(FileLock&& other) noexcept;
+
+  private:
+    FileLock() = default;
+    int file_ = -1;
+};
+
+}  // namespace actformer

@@ -1,0 +1,73 @@
+#include "base/files/mapped_file.hpp"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+
+namespace actformer {
+namespace {
+
+constexpr std::size_t page = 4096;  // of x86-64 and most others; larger ones hold whole multiples of it
+
+std::size_t whole_pages(std::size_t bytes) {
+    const auto size = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE) > 0 ? ::sysconf(_SC_PAGESIZE) : page);
+    return (bytes + size - 1) / size * size;
+}
+
+}  // namespace
+
+// Zero bytes first, for the padding, and the file over their beginning: what the file leaves of its last page is zero too.
+MappedFile::MappedFile(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    struct stat status {};
+    if (file < 0 || ::fstat(file, &status) != 0) {
+        const auto why = std::strerror(errno);
+        if (file >= 0) ::close(file);
+        throw Error("{}: cannot be read: {}", path.string(), why);
+    }
+    size_ = static_cast<std::size_t>(status.st_size);
+    mapped_ = whole_pages(size_ + text_padding);
+    void* all = ::mmap(nullptr, mapped_, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    void* over = all == MAP_FAILED || size_ == 0
+                     ? all
+                     : ::mmap(all, size_, PROT_READ, MAP_PRIVATE | MAP_FIXED, file, 0);
+    const auto why = std::strerror(errno);
+    ::close(file);
+    if (over == MAP_FAILED) {
+        if (all != MAP_FAILED) ::munmap(all, mapped_);
+        throw Error("{}: cannot be read: {}", path.string(), why);
+    }
+    memory_ = static_cast<char*>(all);
+    ::madvise(memory_, mapped_, MADV_SEQUENTIAL);
+}
+
+MappedFile::~MappedFile() {
+    if (memory_) ::munmap(memory_, mapped_);
+}
+
+MappedFile::MappedFile(MappedFile&& other) noexcept
+    : memory_(std::exchange(other.memory_, nullptr)), size_(other.size_), mapped_(other.mapped_) {}
+
+MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
+    std::swap(memory_, other.memory_);
+    std::swap(size_, other.size_);
+    std::swap(mapped_, other.mapped_);
+    return *this;
+}
+
+void MappedFile::release(const char* here) const {
+    const auto bytes = whole_pages(static_cast<std::size_t>(here - memory_));
+    const auto all_before =
+        bytes == static_cast<std::size_t>(here - memory_) ? bytes : bytes - whole_pages(1);
+    if (all_before > 0) ::madvise(memory_, all_before, MADV_DONTNEED);
+}
+
+}  // namespace actformer

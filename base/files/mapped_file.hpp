@@ -1,0 +1,30 @@
+// A large file in memory without reading it first.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+namespace actformer {
+
+/// The file must not shrink while this lives: reading what is gone then ends the process, as with every mapped file.
+class MappedFile {
+  public:
+    /// Throws Error where it cannot be opened or mapped.
+    explicit MappedFile(const std::filesystem::path& path);
+    ~MappedFile();
+    MappedFile(MappedFile&& other) noexcept;
+    MappedFile& operator=(MappedFile&& other) noexcept;
+
+    /// What it holds, followed by text_padding zero bytes.
+    std::string_view text() const { return {memory_, size_}; }
+
+    /// Bytes before `here` are not needed for now: the memory they take becomes free. They can still be read.
+    void release(const char* here) const;
+
+  private:
+    char* memory_ = nullptr;
+    std::size_t size_ = 0, mapped_ = 0;
+};
+
+}  // namespace actformer

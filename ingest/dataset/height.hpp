@@ -1,0 +1,20 @@
+// How tall the bodies of a dataset are.
+#pragma once
+
+#include <optional>
+
+#include "ingest/dataset/dataset.hpp"
+
+namespace actformer::ingest {
+
+struct BodyHeight {
+    double metres = 0;
+    char axis = 'y';  ///< along which bodies are tall: not y where another axis is up, or they lie
+};
+
+/// From the first joint to the last along an axis: of a clip what a tenth of its frames exceed, of the dataset the median over some
+/// clips spread over it. The axis is y, unless another is a quarter longer. Head and hands reach a little beyond their joints. Nothing
+/// where there is no clip.
+std::optional<BodyHeight> body_height(const Dataset& dataset);
+
+}  // namespace actformer::ingest

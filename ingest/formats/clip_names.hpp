@@ -1,0 +1,80 @@
+// Which clips a raw file holds, by its name and folders (a NamePattern), by a table of labels (a LabelsFile), or by both: the labels
+// then tell the action and the pattern more fields.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "ingest/formats/format.hpp"
+#include "ingest/formats/labels_file.hpp"
+#include "ingest/formats/name_pattern.hpp"
+
+namespace actformer::ingest {
+
+/// A clip, before its file is read.
+struct NamedClip {
+    std::string name;
+    std::string action;
+    std::vector<std::string> fields;          ///< as ClipNames::fields() names them
+    std::optional<std::uint32_t> start, end;  ///< frames of the file, where it holds more than the clip
+};
+
+class ClipNames {
+  public:
+    /// Either may be empty. Throws Error where both are, the pattern is none, or the labels cannot be read.
+    ClipNames(const std::string& pattern, const std::filesystem::path& labels);
+
+    const std::vector<std::string>& fields() const { return fields_; }
+
+    /// All that decides names and labels, as text.
+    std::string settings() const;
+
+    /// Notes a file that will be asked for. One thread at a time.
+    void note(const RawText& raw);
+
+    /// After the last note(): clips are called after their files' names, with as many folders before them, joined by _, as tell all
+    /// files apart. Throws Error where no file noted has a clip.
+    void settle();
+
+    /// The clips of a file, at least one, or why there is none.
+    std::variant<std::vector<NamedClip>, Rejection> clips_of(const RawText& raw) const;
+
+    /// The same for files that are persons of one clip: what their fields say but for {person}. Empty where there is no such field, or
+    /// no clip.
+    std::string group_of(const RawText& raw) const;
+
+    /// Rows of the labels whose files are not there, in a line; empty where there are none.
+    std::string unused_labels() const;
+
+  private:
+    /// What is known of a file but for the names of its clips.
+    struct Known {
+        std::vector<std::string> fields;  ///< of the pattern, those kept
+        std::vector<std::size_t> rows;    ///< of the labels
+        std::string group;  ///< the pattern's fields but {person}; empty where it has no such field
+    };
+    std::variant<Known, Rejection> known(const std::string& path) const;
+    std::string name_of(const std::string& path) const;
+
+    std::optional<NamePattern> pattern_;
+    std::vector<std::size_t> kept_;  ///< which of the pattern's fields are not in the labels, {person} apart
+    std::optional<LabelsFile> labels_;
+    std::optional<std::size_t> person_;  ///< {person} among the labels' fields; it is none of fields()
+    std::string labels_path_, labels_checksum_;
+    std::vector<std::string> fields_;
+    std::vector<std::string> paths_;  ///< noted, of files with clips
+    std::vector<bool> used_;          ///< (rows of the labels)
+    std::string first_path_, first_fault_;
+    std::uint64_t first_index_ = 0;
+    bool any_noted_ = false;
+    std::size_t folders_ = 0;  ///< before a file's name
+};
+
+/// Where a file is, without its extension: from the top where it is on disk, from the archive's top where it is in one.
+std::string path_for_names(const RawText& raw);
+
+}  // namespace actformer::ingest

@@ -1,0 +1,259 @@
+#include "ingest/formats/motions/motion_file.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/hdf5/reader.hpp"
+#include "base/text/printable.hpp"
+#include "ingest/formats/motions/csv_motion.hpp"
+#include "ingest/formats/motions/npz.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+enum class Kind { npy, npz, csv, hdf5 };
+
+Kind kind_of(std::string_view path) {
+    const auto ends = [&](std::string_view extension) {
+        return path.size() > extension.size() &&
+               std::equal(extension.begin(), extension.end(),
+                          path.end() - static_cast<std::ptrdiff_t>(extension.size()),
+                          [](char a, unsigned char b) { return a == std::tolower(b); });
+    };
+    return ends(".npy")                   ? Kind::npy
+           : ends(".npz")                 ? Kind::npz
+           : ends(".h5") || ends(".hdf5") ? Kind::hdf5
+                                          : Kind::csv;
+}
+
+/// Arrays of an .npz, or of an .h5, that tell about the motions and are none.
+const std::set<std::string, std::less<>> telling{"clips",   "labels", "classes", "names",
+                                                 "parents", "fps",    "program", "source"};
+
+/// Error::what() without the file's name that some put before it.
+std::string without_path(const Error& error, std::string_view path) {
+    std::string why = error.what();
+    if (why.starts_with(std::string(path) + ": ")) why.erase(0, path.size() + 2);
+    return why;
+}
+
+NumpyArray array_of(const CsvMotion& motion) {
+    NumpyArray array;
+    array.size = sizeof(double);
+    array.shape = {motion.frames, motion.persons, motion.joints, 3};
+    array.values = {reinterpret_cast<const char*>(motion.positions.data()),
+                    motion.positions.size() * sizeof(double)};
+    return array;
+}
+
+class Look {
+  public:
+    Look(const RawText& raw, const ArrayReading& how) : raw_(raw), how_(how) {}
+
+    MotionFile take() {
+        try {
+            look();
+        } catch (const Error& e) {
+            out_.faults.emplace_back("", without_path(e, raw_.path));
+        }
+        return std::move(out_);
+    }
+
+  private:
+    void look() {
+        switch (kind_of(raw_.path)) {
+            case Kind::npy:
+                return add("", read_npy(raw_.text), topology());
+            case Kind::npz:
+                return look_into_npz();
+            case Kind::csv: {
+                const auto motion = read_csv_motion(raw_.text, topology().names);
+                FoundMotion found;
+                found.persons = static_cast<std::uint32_t>(motion.persons);
+                out_.motions.push_back(std::move(found));
+                return;
+            }
+            case Kind::hdf5:
+                return look_into_hdf5();
+        }
+    }
+
+    const Topology& topology() const {
+        if (how_.topology) return *how_.topology;
+        if (out_.topology) return *out_.topology;
+        throw Error(
+            "it does not tell its skeleton; give --topology, as in --topology smpl24 or --topology "
+            "skeleton.yaml");
+    }
+
+    void add(const std::string& key, const NumpyArray& array, const Topology& topology,
+             std::vector<std::int64_t> labels = {}) {
+        try {
+            const JointArray joints(array, topology.joints(), how_.axes);
+            if (joints.guessed() && out_.guess.empty())
+                out_.guess = fmt::format("{} read as {}", array.shape_text(),
+                                         joints.has_clips() ? "clips of frames" : "frames of persons");
+            out_.motions.push_back({key, joints.clips(), joints.has_clips(),
+                                    static_cast<std::uint32_t>(joints.persons()), false, std::move(labels)});
+        } catch (const Error& e) {
+            out_.faults.emplace_back(key, e.what());
+        }
+    }
+
+    void look_into_npz() {
+        std::vector<std::pair<std::string, NumpyArray>> arrays;
+        std::map<std::string, std::vector<double>> numbers;
+        std::map<std::string, std::vector<std::string>> texts;
+        read_npz(raw_.text, true, [&](const std::string& name, const NumpyArray& array) {
+            if (!telling.contains(name)) return void(arrays.emplace_back(name, array));
+            if (array.values.empty()) return;
+            if (array.numbers()) numbers[name] = array.all_numbers();
+            if (array.kind == NumpyArray::Kind::text) texts[name] = array.all_texts();
+        });
+        out_.classes = texts["classes"];
+        if (numbers["fps"].size() == 1 && numbers["fps"][0] > 0) out_.fps = numbers["fps"][0];
+        if (!numbers["parents"].empty()) tell_topology(numbers["parents"], texts["names"]);
+        if (arrays.empty()) throw Error("no array of joint positions in it");
+        const auto& clips = texts["clips"];
+        const auto& labels = numbers["labels"];
+        for (auto& [name, array] : arrays) {
+            std::vector<std::int64_t> own;
+            const auto at =
+                static_cast<std::size_t>(std::find(clips.begin(), clips.end(), name) - clips.begin());
+            if (at < clips.size() && at < labels.size()) own = {static_cast<std::int64_t>(labels[at])};
+            if (clips.empty() && arrays.size() == 1) own.assign(labels.begin(), labels.end());
+            add(arrays.size() == 1 && clips.empty() ? "" : name, array, topology(), std::move(own));
+        }
+    }
+
+    void tell_topology(const std::vector<double>& parents, std::vector<std::string> names) {
+        Topology told;
+        for (const double parent : parents)
+            told.parents.push_back(
+                parent >= -1 && parent < static_cast<double>(parents.size()) ? static_cast<int>(parent) : -2);
+        if (names.empty())
+            for (std::size_t j = 0; j < parents.size(); ++j) names.push_back(std::to_string(j));
+        for (const auto& name : names) told.names.push_back(printable(name));
+        told.check("its parents and names");
+        out_.topology = std::move(told);
+    }
+
+    void look_into_hdf5() {
+        if (!raw_.on_disk)
+            throw Error("an HDF5 file in an archive; unpack the archive and give the file itself");
+        const std::string path(raw_.path);
+        const hdf5::Reader file(path);
+        std::vector<std::string> keys;
+        for (auto& name : file.names())
+            if (file.is_array(name) && !telling.contains(name)) keys.push_back(std::move(name));
+        if (keys.empty()) throw Error("no array in it");
+        const auto told = read_representation(file, path);
+        if (auto subjects = read_subjects(file, path)) {
+            out_.topology = subjects->topology;
+            out_.classes = subjects->classes;
+            out_.fps = subjects->fps;
+            out_.bone_length = subjects->bone_length;
+            out_.rest = subjects->rest;
+        }
+        bool first = true;
+        for (const auto& key : keys) {
+            const auto shape = file.shape(key);
+            if (!told && holds_positions(shape)) {
+                NumpyArray array;
+                array.shape.assign(shape.begin(), shape.end());
+                add(key, array, topology());
+                continue;
+            }
+            if (std::exchange(first, false)) out_.representation = told.value_or(usual(shape));
+            add_stored(key, shape);
+        }
+    }
+
+    /// Positions have their coordinates on the last axis, motions of the public layout their frames.
+    bool holds_positions(const hdf5::Shape& shape) const {
+        return !how_.axes.empty() || shape.size() != 3 || (shape[2] == 3 && shape[1] == topology().joints());
+    }
+
+    /// Of motions that do not tell it: one more node than joints is that of the translation.
+    Representation usual(const hdf5::Shape& shape) const {
+        const bool rotations = shape.size() == 3 && shape[1] == topology().joints() + 1 && shape[0] % 6 == 0;
+        return rotations ? Representation::rot6d : Representation::limb;
+    }
+
+    void add_stored(const std::string& key, const hdf5::Shape& shape) {
+        const auto numbers = out_.representation.numbers(), nodes = out_.representation.nodes(topology());
+        if (shape.size() != 3 || shape[0] == 0 || shape[0] % numbers != 0 || shape[1] != nodes ||
+            shape[2] == 0) {
+            out_.faults.emplace_back(
+                key, fmt::format("({}) is no motion of {} ({} * persons, {}, frames); see --topology",
+                                 fmt::join(shape, ", "), out_.representation.name(), numbers, nodes));
+            return;
+        }
+        out_.motions.push_back({key, 1, false, static_cast<std::uint32_t>(shape[0] / numbers), true, {}});
+    }
+
+    const RawText& raw_;
+    const ArrayReading& how_;
+    MotionFile out_;
+};
+
+const FoundMotion* found_in(const MotionFile& file, std::string_view key) {
+    for (const auto& motion : file.motions)
+        if (motion.key == key || (motion.key.empty() && file.motions.size() == 1)) return &motion;
+    return nullptr;
+}
+
+void take_from_hdf5(const RawText& raw, const MotionFile& file, const Topology& topology,
+                    const std::string& axes, const MotionTaker& taker) {
+    const std::string path(raw.path);
+    std::optional<MotionsFile> stored;
+    std::optional<hdf5::Reader> arrays;
+    for (const auto& motion : file.motions) {
+        if (motion.stored) {
+            if (!stored) stored.emplace(path, file.representation);
+            taker.stored(motion, *stored);
+            continue;
+        }
+        if (!arrays) arrays.emplace(path);
+        const auto shape = arrays->shape(motion.key);
+        const auto values = arrays->read<double>(motion.key);
+        NumpyArray array;
+        array.size = sizeof(double);
+        array.shape.assign(shape.begin(), shape.end());
+        array.values = {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
+        taker.array(motion, JointArray(array, topology.joints(), axes));
+    }
+}
+
+}  // namespace
+
+MotionFile look_into(const RawText& raw, const ArrayReading& how) {
+    return Look(raw, how).take();
+}
+
+void take_motions(const RawText& raw, const MotionFile& file, const Topology& topology,
+                  const std::string& axes, const MotionTaker& taker) {
+    switch (kind_of(raw.path)) {
+        case Kind::npy: {
+            const auto array = read_npy(raw.text);
+            return taker.array(file.motions[0], JointArray(array, topology.joints(), axes));
+        }
+        case Kind::npz:
+            return read_npz(raw.text, false, [&](const std::string& name, const NumpyArray& array) {
+                if (telling.contains(name)) return;
+                if (const auto* found = found_in(file, name))
+                    taker.array(*found, JointArray(array, topology.joints(), axes));
+            });
+        case Kind::csv: {
+            const auto motion = read_csv_motion(raw.text, topology.names);
+            const auto array = array_of(motion);
+            return taker.array(file.motions[0], JointArray(array, topology.joints(), "tpkc"));
+        }
+        case Kind::hdf5:
+            return take_from_hdf5(raw, file, topology, axes, taker);
+    }
+}
+
+}  // namespace actformer::ingest

@@ -1,0 +1,620 @@
+#include "ingest/formats/motions/motions_format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <unordered_set>
+
+#include "base/error.hpp"
+#include "base/text/first_few.hpp"
+#include "base/text/printable.hpp"
+#include "ingest/formats/motions/topology_file.hpp"
+#include "ingest/formats/skeletal/up.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+constexpr kernels::Smoothing smoothing{3, 12};  // as NTU's
+constexpr const char* unlabelled = "motion";
+
+struct MotionClip : RawClip {
+    std::uint32_t frames = 0;
+    bool stored = false;             ///< `values` go to the dataset as they are
+    std::vector<float> values;       ///< (frames, persons, nodes, numbers)
+    std::vector<float> bone_length;  ///< (persons, joints) metres, of stored motions and of positions
+
+    std::size_t bytes() const override {
+        return sizeof *this + sizeof(float) * (values.size() + bone_length.size());
+    }
+};
+
+/// Which axis of the recording each axis of the dataset is, from 1, negative where it points the other way.
+std::array<int, 3> axes_below(Up up) {
+    switch (up) {
+        case Up::y:
+            return {1, 2, 3};
+        case Up::z:
+            return {1, 3, -2};
+        case Up::minus_y:
+            return {1, -2, -3};
+        case Up::minus_z:
+            return {1, -3, 2};
+        case Up::x:
+            return {-2, 1, 3};
+        case Up::minus_x:
+            return {2, -1, 3};
+    }
+    return {1, 2, 3};
+}
+
+void check(const MotionsOptions& options) {
+    if (!(options.scale > 1e-9 && options.scale < 1e9))
+        throw Error("scale {} is not a number of metres a unit; millimetres are 0.001", options.scale);
+    if (!(options.fps == 0 || (options.fps >= 1 && options.fps <= 1000)))
+        throw Error("{} frames a second; give 1 to 1000, or 0 for as the files say", options.fps);
+    if (options.persons > 100) throw Error("{} persons in a clip; give 1 to 100", options.persons);
+    if (!up_named(options.up)) throw Error("up {}: give y, z, x, -y, -z or -x", in_quotes(options.up));
+    if (options.representation != "" && options.representation != "limb" && options.representation != "xyz")
+        throw Error("joint positions become limb or xyz, not {}", in_quotes(options.representation));
+    check_axes(options.axes);
+}
+
+/// What most have; `counts` is not empty.
+template <typename T>
+T commonest(const std::map<T, std::uint64_t>& counts) {
+    return std::max_element(counts.begin(), counts.end(),
+                            [](auto& a, auto& b) { return a.second < b.second; })
+        ->first;
+}
+
+/// The last `folders` + 1 parts of a path, joined by _.
+std::string end_of(const std::string& path, std::size_t folders) {
+    auto begin = path.size();
+    for (std::size_t i = 0; i <= folders && begin != std::string::npos && begin > 0; ++i)
+        begin = path.rfind('/', begin - 1);
+    auto name = path.substr(begin == std::string::npos || begin == 0 ? 0 : begin + 1);
+    std::replace(name.begin(), name.end(), '/', '_');
+    return printable(name);
+}
+
+/// From 0, in a name like A001_7 or S001C001P001R001A001, as the public tools find it; none in other names.
+std::optional<std::uint32_t> label_in(const std::string& name) {
+    const auto is_digit = [&](std::size_t i) { return i < name.size() && name[i] >= '0' && name[i] <= '9'; };
+    for (auto at = name.find('A'); at != std::string::npos; at = name.find('A', at + 1)) {
+        if (!is_digit(at + 1) || !is_digit(at + 2) || !is_digit(at + 3) || is_digit(at + 4)) continue;
+        const int action = std::stoi(name.substr(at + 1, 3));
+        if (action > 0) return static_cast<std::uint32_t>(action - 1);
+    }
+    return {};
+}
+
+/// (joints) metres, for bodies whose own limbs nobody knows.
+std::vector<float> usual_bone_lengths(const Topology& topology) {
+    std::vector<float> out(topology.joints(), 0.2F);
+    out[0] = 0;
+    return out;
+}
+
+/// (joints) metres of offsets (joints, 3) from the parent; 0 for the root.
+std::vector<float> lengths_of(const std::vector<float>& rest) {
+    std::vector<float> out(rest.size() / 3, 0);
+    for (std::size_t j = 1; j < out.size(); ++j)
+        out[j] = std::hypot(rest[3 * j], rest[3 * j + 1], rest[3 * j + 2]);
+    return out;
+}
+
+std::string inside_without_extension(const RawText& raw) {
+    const auto folders = raw.inside.find_last_of('/');
+    return std::string(raw.inside.substr(0, folders == std::string_view::npos ? 0 : folders + 1)) +
+           std::string(raw.stem);
+}
+
+std::string place_of(const FoundMotion& motion, std::uint64_t clip) {
+    if (motion.key.empty() && !motion.numbered) return {};
+    return motion.key.empty() ? fmt::format("clip {}: ", clip)
+           : motion.numbered  ? fmt::format("'{}': clip {}: ", printable(motion.key), clip)
+                              : fmt::format("'{}': ", printable(motion.key));
+}
+
+}  // namespace
+
+struct MotionsFormat::Surveyed : MotionFile {
+    std::string path, inside;  ///< of the file; the latter without extension
+
+    /// Where a clip is, as names and labels see it.
+    std::string path_of(const FoundMotion& motion, std::uint64_t clip) const {
+        auto out = inside;
+        if (!motion.key.empty()) out += "/" + motion.key;
+        if (motion.numbered) out += fmt::format("_{}", clip);
+        return out;
+    }
+
+    template <typename Use>
+    void for_each_clip(Use use) const {
+        for (const auto& motion : motions)
+            for (std::uint64_t clip = 0; clip < motion.clips; ++clip) use(motion, clip);
+    }
+};
+
+MotionsFormat::MotionsFormat(MotionsOptions options) : options_(std::move(options)) {
+    check(options_);
+    if (!options_.topology.empty()) arrays_.topology = topology_called(options_.topology);
+    arrays_.axes = options_.axes;
+    positions_.scale = options_.scale;
+    positions_.axes = axes_below(*up_named(options_.up));
+    positions_.limbs = options_.representation != "xyz";
+    if (!options_.pattern.empty() || !options_.labels.empty())
+        names_.emplace(options_.pattern, options_.labels);
+}
+
+MotionsFormat::~MotionsFormat() = default;
+
+void MotionsFormat::survey(const RawText& raw) {
+    Surveyed file{look_into(raw, arrays_), std::string(raw.path), inside_without_extension(raw)};
+    const std::lock_guard lock(surveying_);
+    files_.emplace(raw.index, std::move(file));
+}
+
+void MotionsFormat::settle() {
+    settle_skeleton();
+    settle_header();
+    settle_names();
+    settle_classes();
+    remark();
+}
+
+void MotionsFormat::settle_skeleton() {
+    std::string fault;
+    bool any = false;
+    for (const auto& [index, file] : files_) {
+        any = any || !file.motions.empty();
+        if (!arrays_.topology && file.topology) arrays_.topology = file.topology;
+        if (fault.empty() && !file.faults.empty())
+            fault = fmt::format("; the first fault is in {}: {}", printable(file.path),
+                                printable(file.faults[0].second));
+    }
+    if (!any) throw Error("no motion in any file{}", fault);
+}
+
+void MotionsFormat::settle_header() {
+    std::map<std::uint32_t, std::uint64_t> persons;
+    std::map<std::string, std::uint64_t> stored;
+    std::map<double, std::uint64_t> rates;
+    for (const auto& [index, file] : files_)
+        file.for_each_clip([&](const FoundMotion& motion, std::uint64_t) {
+            ++persons[motion.persons];
+            if (motion.stored) ++stored[file.representation.name()];
+            if (file.fps) ++rates[*file.fps];
+        });
+    DatasetHeader header;
+    header.name = options_.dataset;
+    header.topology = *arrays_.topology;
+    header.persons = options_.persons > 0 ? options_.persons : commonest(persons);
+    header.fps = options_.fps > 0 ? options_.fps : rates.empty() ? 30 : commonest(rates);
+    header.centre_windows = options_.centre_windows;
+    if (!stored.empty() && options_.representation.empty())
+        header.representation = Representation::named(commonest(stored), "the files");
+    else if (!options_.representation.empty())
+        header.representation = Representation::named(options_.representation, "--representation");
+    for (const auto& [index, file] : files_)
+        if (header.representation == Representation::rot6d && header.rest.empty()) header.rest = file.rest;
+    if (header.representation == Representation::rot6d && header.rest.empty()) {
+        header.rest = generic_rest(header.topology);
+        if (header.rest.empty())
+            throw Error(
+                "rotations, but no rest pose that they turn: a file that tells it has the attribute rest, "
+                "(joints, 3) metres "
+                "from the parent");
+        remarks_.emplace_back("the files do not tell the rest pose: that of a mean body is taken");
+    }
+    positions_.persons = header.persons;
+    datasets_ = {std::move(header)};
+    positions_.topology = &datasets_[0].topology;
+}
+
+void MotionsFormat::settle_names() {
+    auto& header = datasets_[0];
+    if (names_) {
+        for (const auto& [index, file] : files_)
+            file.for_each_clip([&, at = index, &from = file](const FoundMotion& motion, std::uint64_t clip) {
+                const auto path = from.path_of(motion, clip);
+                names_->note({path, end_of(path, 0), {}, path, at});
+            });
+        names_->settle();
+        header.fields = names_->fields();
+    } else {
+        const auto apart = [&] {
+            std::unordered_set<std::string> names;
+            bool distinct = true;
+            for (const auto& [index, file] : files_)
+                file.for_each_clip([&, &from = file](const FoundMotion& motion, std::uint64_t clip) {
+                    distinct = distinct && names.insert(end_of(from.path_of(motion, clip), folders_)).second;
+                });
+            return distinct;
+        };
+        constexpr std::size_t deepest = 16;
+        while (!apart() && folders_ < deepest) ++folders_;
+        if (folders_ == deepest) folders_ = 0;  // the very same paths: the first of each name is taken
+        header.fields = {"action", "file"};
+    }
+    for (const auto& split : options_.splits)
+        for (const auto& condition : split.conditions)
+            if (std::find(header.fields.begin(), header.fields.end(), condition.field) == header.fields.end())
+                throw Error("split {}: clips have no field '{}'; they have {}", split.name, condition.field,
+                            fmt::join(header.fields, ", "));
+    header.splits = options_.splits;
+}
+
+/// Those that all files tell alike, in their order; else the actions of the clips, sorted.
+void MotionsFormat::settle_classes() {
+    std::set<std::vector<std::string>> told;
+    std::set<std::string> actions;
+    for (const auto& [index, file] : files_) {
+        if (!file.motions.empty()) told.insert(file.classes);
+        file.for_each_clip([&, &from = file](const FoundMotion& motion, std::uint64_t clip) {
+            const auto clips = clips_of(from, motion, clip);
+            if (const auto* all = std::get_if<std::vector<NamedClip>>(&clips))
+                for (const auto& one : *all) actions.insert(one.action);
+        });
+    }
+    const auto known = [&](const std::string& action) {
+        return std::find(told.begin()->begin(), told.begin()->end(), action) != told.begin()->end();
+    };
+    told_classes_ =
+        told.size() == 1 && !told.begin()->empty() && std::all_of(actions.begin(), actions.end(), known);
+    datasets_[0].classes =
+        told_classes_ ? *told.begin() : std::vector<std::string>(actions.begin(), actions.end());
+}
+
+void MotionsFormat::remark() {
+    std::vector<std::string> guesses;
+    bool lengths = true;
+    for (const auto& [index, file] : files_) {
+        if (!file.guess.empty()) guesses.push_back(fmt::format("{}: {}", printable(file.path), file.guess));
+        for (const auto& motion : file.motions)
+            lengths = lengths && (!motion.stored || !file.bone_length.empty());
+    }
+    if (!guesses.empty())
+        remarks_.push_back(
+            fmt::format("{} of (?, ?, joints, 3) taken by their lengths ({}); --axes says otherwise",
+                        guesses.size() == 1 ? "an array" : "arrays", first_few(guesses)));
+    if (!lengths && datasets_[0].representation == Representation::limb)
+        remarks_.emplace_back("the files do not tell how long the limbs are: usual lengths are taken");
+    if (names_)
+        if (auto unused = names_->unused_labels(); !unused.empty()) remarks_.push_back(std::move(unused));
+}
+
+std::vector<NamedClip> MotionsFormat::told_by_file(const Surveyed& file, const FoundMotion& motion,
+                                                   std::uint64_t clip) const {
+    const auto path = file.path_of(motion, clip);
+    std::optional<std::uint32_t> label;
+    if (clip < motion.labels.size() && motion.labels[clip] >= 0)
+        label = static_cast<std::uint32_t>(motion.labels[clip]);
+    if (!label) label = label_in(end_of(path, 0));
+    const auto action = !label                         ? unlabelled
+                        : *label < file.classes.size() ? printable(file.classes[*label])
+                                                       : fmt::format("A{:03}", *label + 1);
+    return {{end_of(path, folders_), action, {action, end_of(file.inside, 0)}, {}, {}}};
+}
+
+std::variant<std::vector<NamedClip>, Rejection> MotionsFormat::clips_of(const Surveyed& file,
+                                                                        const FoundMotion& motion,
+                                                                        std::uint64_t clip) const {
+    if (!names_) return told_by_file(file, motion, clip);
+    const auto path = file.path_of(motion, clip);
+    return names_->clips_of({path, end_of(path, 0), {}, path});
+}
+
+std::string MotionsFormat::settings() const {
+    const auto& header = datasets_[0];
+    std::string splits;
+    for (const auto& split : options_.splits) {
+        splits += fmt::format(" [{}", split.name);
+        for (const auto& c : split.conditions)
+            splits += fmt::format(" {}{}:{}", c.field, c.negated ? "!" : "", fmt::join(c.values, ","));
+        splits += "]";
+    }
+    return fmt::format(
+        "motions: dataset '{}', {}, axes '{}', {} up, {} metres a unit, {} frames a second, {} persons, {}, "
+        "{}, joints {} below {}, "
+        "classes {}, splits{}{}",
+        options_.dataset, names_ ? names_->settings() : "names and labels of the files", options_.axes,
+        options_.up, options_.scale, header.fps, header.persons, header.representation.name(),
+        options_.clean ? "smoothed by a Gaussian of sigma 3 frames" : "not smoothed",
+        fmt::join(header.topology.names, ","), fmt::join(header.topology.parents, ","),
+        fmt::join(header.classes, ","), splits, options_.centre_windows ? ", windows centred" : "");
+}
+
+class MotionsFormat::FileReader {
+  public:
+    FileReader(const MotionsFormat& format, const Surveyed& file, ClipSink& sink)
+        : format_(format), header_(format.datasets_[0]), file_(file), sink_(sink) {}
+
+    void read(const RawText& raw) {
+        for (const auto& [key, why] : file_.faults)
+            reject(key.empty() ? why : fmt::format("'{}': {}", printable(key), why));
+        if (file_.motions.empty()) return;
+        if (file_.topology && file_.topology->parents != header_.topology.parents) {
+            if (format_.options_.topology.empty())
+                return reject("its skeleton is not that of the first file");
+        }
+        if (const auto fps = file_.fps;
+            fps && format_.options_.fps == 0 && std::abs(*fps - header_.fps) > 1e-3)
+            return reject(fmt::format("{:.6g} frames a second, not {:.6g} as most; --fps F takes all as F",
+                                      *fps, header_.fps));
+        take_motions(
+            raw, file_, header_.topology, format_.arrays_.axes,
+            {[this, &raw](const FoundMotion& found, const JointArray& array) {
+                 add_array(raw, found, array);
+             },
+             [this](const FoundMotion& found, const MotionsFile& file) { add_stored(found, file); }});
+    }
+
+  private:
+    void reject(std::string reason, Rejection::Kind kind = Rejection::Kind::broken) {
+        sink_.take(Rejection{kind, std::move(reason)});
+    }
+
+    /// Calls `make` with each of the clips that names and labels make of a motion.
+    template <typename Make>
+    void for_each(const FoundMotion& found, std::uint64_t clip, Make make) {
+        const auto place = place_of(found, clip);
+        auto clips = format_.clips_of(file_, found, clip);
+        if (auto* rejection = std::get_if<Rejection>(&clips))
+            return reject(place + rejection->reason, rejection->kind);
+        for (auto& named : std::get<std::vector<NamedClip>>(clips)) {
+            std::variant<std::unique_ptr<MotionClip>, Rejection> made = make(named);
+            if (auto* rejection = std::get_if<Rejection>(&made)) {
+                reject(place + rejection->reason, rejection->kind);
+                continue;
+            }
+            auto& out = std::get<std::unique_ptr<MotionClip>>(made);
+            const auto label = std::find(header_.classes.begin(), header_.classes.end(), named.action);
+            if (label == header_.classes.end()) {
+                reject(fmt::format("{}'{}' is none of the classes", place, named.action),
+                       Rejection::Kind::dropped);
+                continue;
+            }
+            out->label = static_cast<std::uint32_t>(label - header_.classes.begin());
+            out->name = std::move(named.name);
+            out->fields = std::move(named.fields);
+            sink_.take(std::move(out));
+        }
+    }
+
+    void add_array(const RawText& raw, const FoundMotion& found, const JointArray& array) {
+        for (std::uint64_t clip = 0; clip < array.clips(); ++clip) {
+            for_each(found, clip, [&](const NamedClip& named) { return positions(array, clip, named); });
+            raw.release(array.end_of_clip(clip));
+        }
+    }
+
+    std::variant<std::unique_ptr<MotionClip>, Rejection> positions(const JointArray& array,
+                                                                   std::uint64_t clip,
+                                                                   const NamedClip& named) const {
+        if (header_.representation == Representation::rot6d)
+            return Rejection{Rejection::Kind::dropped,
+                             "joint positions, and not rotations as the others are"};
+        auto request = format_.positions_;
+        request.start = named.start.value_or(0);
+        request.end = named.end;
+        auto read = read_positions(array, clip, request);
+        if (auto* rejection = std::get_if<Rejection>(&read)) return std::move(*rejection);
+        auto& taken = std::get<ClipPositions>(read);
+        auto out = std::make_unique<MotionClip>();
+        out->frames = taken.frames;
+        out->values = std::move(taken.values);
+        out->bone_length = std::move(taken.bone_length);
+        if (taken.filled) out->doubts.emplace_back("not seen all the time: filled in between");
+        return out;
+    }
+
+    void add_stored(const FoundMotion& found, const MotionsFile& file) {
+        for_each(found, 0, [&](const NamedClip& named) { return stored(found, file, named); });
+    }
+
+    std::variant<std::unique_ptr<MotionClip>, Rejection> stored(const FoundMotion& found,
+                                                                const MotionsFile& file,
+                                                                const NamedClip& named) const {
+        const auto& options = format_.options_;
+        if (file_.representation != header_.representation)
+            return Rejection{
+                Rejection::Kind::dropped,
+                fmt::format("holds {}, not {}", file_.representation.name(), header_.representation.name())};
+        if (found.persons != header_.persons)
+            return Rejection{Rejection::Kind::dropped,
+                             fmt::format("{} persons, not {}", found.persons, header_.persons)};
+        if (options.clean || options.scale != 1 || options.up != "y")
+            return Rejection{
+                Rejection::Kind::dropped,
+                fmt::format("{} stay as they are: no --clean, --scale or --up for them",
+                            file_.representation == Representation::rot6d ? "rotations" : "limbs")};
+        auto motion = file.read(found.key);
+        if (const auto bad = std::find_if(motion.values.begin(), motion.values.end(),
+                                          [](float x) { return !std::isfinite(x); });
+            bad != motion.values.end())
+            return Rejection{Rejection::Kind::broken,
+                             fmt::format("frame {}: a number that is not finite",
+                                         static_cast<std::size_t>(bad - motion.values.begin()) /
+                                             (std::size_t{motion.persons} * motion.nodes * motion.numbers))};
+        auto out = std::make_unique<MotionClip>();
+        const auto start = std::min<std::uint64_t>(named.start.value_or(0), motion.frames),
+                   end = std::min<std::uint64_t>(named.end.value_or(motion.frames), motion.frames);
+        if (start >= end)
+            return Rejection{Rejection::Kind::dropped, "the labels cut out frames that are not there"};
+        if (!has_unit_limbs(motion) && file_.representation == Representation::limb)
+            out->doubts.emplace_back(
+                "limbs that are not of length 1: joint positions? --axes kct and the like takes them so");
+        const auto row = std::size_t{motion.persons} * motion.nodes * motion.numbers;
+        out->frames = static_cast<std::uint32_t>(end - start);
+        out->stored = true;
+        motion.values.erase(motion.values.begin() + static_cast<std::ptrdiff_t>(end * row),
+                            motion.values.end());
+        motion.values.erase(motion.values.begin(),
+                            motion.values.begin() + static_cast<std::ptrdiff_t>(start * row));
+        out->values = std::move(motion.values);
+        out->bone_length = lengths();
+        return out;
+    }
+
+    /// The file's, else usual ones.
+    std::vector<float> lengths() const {
+        const auto joints = header_.topology.joints(), wanted = header_.persons * joints;
+        if (file_.bone_length.size() == wanted) return file_.bone_length;
+        const auto usual =
+            header_.rest.empty() ? usual_bone_lengths(header_.topology) : lengths_of(header_.rest);
+        std::vector<float> out;
+        for (std::size_t p = 0; p < header_.persons; ++p) out.insert(out.end(), usual.begin(), usual.end());
+        return out;
+    }
+
+    const MotionsFormat& format_;
+    const DatasetHeader& header_;
+    const Surveyed& file_;
+    ClipSink& sink_;
+};
+
+void MotionsFormat::read(const RawText& raw, ClipSink& sink) const {
+    const auto file = files_.find(raw.index);
+    if (file == files_.end()) throw Error("it could not be read when the files were looked at");
+    FileReader(*this, file->second, sink).read(raw);
+}
+
+namespace {
+
+using Clips = std::vector<const MotionClip*>;
+
+/// Numbers of a frame, all persons together.
+std::size_t frame_size(const DatasetHeader& header) {
+    return std::size_t{header.persons} * header.representation.nodes(header.topology) *
+           header.representation.numbers();
+}
+
+kernels::ClipBatch batch_of(const Clips& clips, const DatasetHeader& header) {
+    kernels::ClipBatch batch;
+    batch.persons = header.persons;
+    batch.joints = static_cast<std::uint32_t>(header.topology.joints());
+    batch.first = {0};
+    for (const auto* clip : clips) {
+        batch.frames.push_back(clip->frames);
+        batch.step.push_back(1);
+        for (std::uint32_t p = 0; p < header.persons; ++p) {
+            for (std::uint32_t t = 0; t < clip->frames; ++t) batch.times.push_back(static_cast<float>(t));
+            batch.first.push_back(static_cast<std::uint32_t>(batch.times.size()));
+        }
+    }
+    return batch;
+}
+
+/// The clips' values on the device, a person after the other, as the kernels want detections.
+kernels::Buffer<float> by_person(kernels::Device& device, const Clips& clips,
+                                 const kernels::ClipBatch& batch) {
+    auto values = kernels::limb_buffer(device, batch.times.size(), batch.joints);
+    values.write_with([&](std::span<float> to) {
+        const std::size_t body = std::size_t{batch.joints} * 3;
+        auto at = to.begin();
+        for (const auto* clip : clips)
+            for (std::size_t p = 0; p < batch.persons; ++p)
+                for (std::size_t t = 0; t < clip->frames; ++t)
+                    at = std::copy_n(clip->values.data() + (t * batch.persons + p) * body, body, at);
+    });
+    return values;
+}
+
+kernels::CleanedBatch limbs_of(kernels::Device& device, const Clips& clips, const DatasetHeader& header,
+                               bool smooth) {
+    const auto batch = batch_of(clips, header);
+    if (smooth) return kernels::clean(device, batch, by_person(device, clips, batch), smoothing);
+    auto rows = kernels::limb_buffer(device, batch.times.size(), batch.joints);
+    rows.write_with([&](std::span<float> to) {
+        auto at = to.begin();
+        for (const auto* clip : clips) at = std::copy(clip->values.begin(), clip->values.end(), at);
+    });
+    return kernels::normalise(device, batch, {rows, batch.joints * 3});
+}
+
+/// Takes the mean root over all frames and persons from every joint of a clip.
+void centre(std::span<float> values, const DatasetHeader& header) {
+    const std::size_t body = header.topology.joints() * 3, bodies = values.size() / body;
+    std::array<double, 3> mean{};
+    for (std::size_t b = 0; b < bodies; ++b)
+        for (std::size_t d = 0; d < 3; ++d) mean[d] += values[b * body + d] / static_cast<double>(bodies);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<float>(static_cast<double>(values[i]) - mean[i % 3]);
+}
+
+/// Positions, smoothed or not, about the clip's mean root.
+kernels::CleanedBatch positions_of(kernels::Device& device, const Clips& clips, const DatasetHeader& header,
+                                   bool smooth) {
+    kernels::CleanedBatch out;
+    const auto motion = std::make_shared<std::vector<float>>();
+    for (const auto* clip : clips) {
+        motion->insert(motion->end(), clip->values.begin(), clip->values.end());
+        out.bone_length.insert(out.bone_length.end(), clip->bone_length.begin(), clip->bone_length.end());
+    }
+    if (smooth) {
+        const auto batch = batch_of(clips, header);
+        const auto rows = kernels::fill_and_smooth(device, batch, by_person(device, clips, batch), smoothing);
+        const auto smoothed = rows.values.map();
+        const std::size_t body = std::size_t{batch.joints} * 3;
+        for (std::size_t b = 0; b < motion->size() / body; ++b)
+            std::copy_n(smoothed.values().data() + b * rows.pitch, body, motion->data() + b * body);
+    }
+    std::size_t at = 0;
+    for (const auto* clip : clips) {
+        centre(std::span(*motion).subspan(at, clip->values.size()), header);
+        at += clip->values.size();
+    }
+    out.motion = *motion;
+    out.memory = motion;
+    return out;
+}
+
+/// The clips of `made` where they belong among the stored ones.
+kernels::CleanedBatch with_stored(const Clips& clips, const kernels::CleanedBatch& made,
+                                  const DatasetHeader& header) {
+    kernels::CleanedBatch out;
+    const auto motion = std::make_shared<std::vector<float>>();
+    const auto bones = header.persons * header.topology.joints();
+    std::size_t row = 0, fresh = 0;
+    for (const auto* clip : clips) {
+        if (clip->stored) {
+            motion->insert(motion->end(), clip->values.begin(), clip->values.end());
+            out.bone_length.insert(out.bone_length.end(), clip->bone_length.begin(), clip->bone_length.end());
+            continue;
+        }
+        const auto size = clip->frames * frame_size(header);
+        motion->insert(motion->end(), made.motion.data() + row, made.motion.data() + row + size);
+        const auto lengths = made.bone_length.begin() + static_cast<std::ptrdiff_t>(fresh++ * bones);
+        out.bone_length.insert(out.bone_length.end(), lengths, lengths + static_cast<std::ptrdiff_t>(bones));
+        row += size;
+    }
+    out.motion = *motion;
+    out.memory = motion;
+    return out;
+}
+
+}  // namespace
+
+kernels::CleanedBatch MotionsFormat::clean(kernels::Device& device, std::size_t dataset,
+                                           std::span<const std::unique_ptr<RawClip>> clips,
+                                           std::vector<std::uint32_t>& frames) const {
+    const auto& header = datasets_[dataset];
+    Clips all, fresh;
+    frames.clear();
+    for (const auto& raw : clips) {
+        const auto& clip = static_cast<const MotionClip&>(*raw);
+        frames.push_back(clip.frames);
+        all.push_back(&clip);
+        if (!clip.stored) fresh.push_back(&clip);
+    }
+    kernels::CleanedBatch made;
+    if (!fresh.empty())
+        made = header.representation == Representation::xyz
+                   ? positions_of(device, fresh, header, options_.clean)
+                   : limbs_of(device, fresh, header, options_.clean);
+    return fresh.size() == all.size() ? std::move(made) : with_stored(all, made, header);
+}
+
+}  // namespace actformer::ingest

@@ -1,0 +1,22 @@
+// A skeleton that the user names: a known one, or a file of joints and parents.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "ingest/dataset/topology.hpp"
+
+namespace actformer::ingest {
+
+/// "ntu25", "smpl24", "coco17", "h36m17", "gta22"
+std::vector<std::string_view> known_topologies();
+
+/// A known topology, or the one in a JSON or YAML file: `names` and `parents`, -1 for the root, which is joint 0; `parents` may also be
+/// names. Throws Error naming the file and what is wrong in it.
+Topology topology_called(const std::string& name_or_file);
+
+/// (joints, 3) metres from the parent in SMPL's rest pose, of a body of mean size; empty for other trees than SMPL's.
+std::vector<float> generic_rest(const Topology& topology);
+
+}  // namespace actformer::ingest

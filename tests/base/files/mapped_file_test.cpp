@@ -1,0 +1,34 @@
+#include "base/files/mapped_file.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer;
+using namespace actformer::test;
+
+TEST(MappedFile, EndsInZerosWhateverItsLength) {
+    const TempDir dir;
+    const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{1}, page - 65, page - 64, page - 1, page, page + 1, 3 * page}) {
+        std::string text(size, 'x');
+        for (std::size_t i = 0; i < size; ++i) text[i] = static_cast<char>('a' + i % 26);
+        write_file(dir / "file", text);
+        const MappedFile file(dir / "file");
+        ASSERT_EQ(file.text(), text) << size;
+        const char* end = file.text().data() + size;
+        EXPECT_TRUE(std::all_of(end, end + text_padding, [](char c) { return c == '\0'; })) << size;
+        file.release(end);
+        EXPECT_EQ(file.text(), text) << "what was released can still be read, " << size;
+    }
+}
+
+TEST(MappedFile, NamesAFileThatIsNotThere) {
+    EXPECT_THROW(MappedFile("/nowhere/at/all"), Error);
+}
