@@ -154,8 +154,8 @@ class AmcReader {
         out.origin = origin_;
         RecordedJoint root;
         root.name = "root";
-        root.channels = {Channel::x_position, Channel::y_position, Channel::z_position};
-        root.channels.insert(root.channels.end(), turns_zyx.begin(), turns_zyx.end());
+        root.channels = {Channel::x_position, Channel::y_position, Channel::z_position,
+                         Channel::z_rotation, Channel::y_rotation, Channel::x_rotation};
         out.channels = 6;
         out.joints.push_back(std::move(root));
         std::vector<int> end(skeleton_.bones.size());  // a bone's end among the joints
