@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/text/nearest_word.hpp"
 #include "base/text/printable.hpp"
 #include "model/generators/actformer/method.hpp"
 #include "model/generators/generator_settings.hpp"

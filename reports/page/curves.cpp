@@ -32,9 +32,9 @@ std::optional<std::string> before(const std::string& key, const std::string& nam
 std::optional<ChartOf> chart_of(const std::string& key) {
     if (const auto series = before(key, "loss")) return ChartOf{"loss", "", *series};
     if (const auto series = before(key, "score")) return ChartOf{"discriminator\u2019s score", "", *series};
-    for (const auto& known : eval::metrics)
-        if (const auto series = before(key, known.name)) {
-            const auto metric = scored_metric(known.name);
+    for (const auto& known : eval::metrics())
+        if (const auto series = before(key, std::string(known.name))) {
+            const auto metric = scored_metric(std::string(known.name));
             return ChartOf{metric.heading, metric.scale == 100 ? "%" : "", *series, metric.scale, true};
         }
     return {};

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/lock.hpp"
 
 namespace actformer::reports {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "eval/scoring/score_report.hpp"
+#include "eval/metrics/metric.hpp"
 
 namespace actformer::reports {
 
@@ -18,19 +18,30 @@ const char* name_of(Better better) {
     }
 }
 
+namespace {
+
+Better better_of(eval::Direction direction) {
+    switch (direction) {
+        case eval::Direction::lower:
+            return Better::lower;
+        case eval::Direction::higher:
+            return Better::higher;
+        default:
+            return Better::nearest_to_real;
+    }
+}
+
+}  // namespace
+
 Metric scored_metric(const std::string& name) {
     const auto* known = eval::find_metric(name);
     if (!known) {
         std::string all;
-        for (const auto& metric : eval::metrics)
+        for (const auto& metric : eval::metrics())
             all += (all.empty() ? "" : ", ") + std::string(metric.name);
         throw Error("there is no metric '{}'; there are {}", name, all);
     }
-    const bool share = name == "accuracy", spread = name == "diversity" || name == "multimodality";
-    return {name, known->heading, share ? 100.0 : 1.0,
-            spread                     ? Better::nearest_to_real
-            : known->smaller_is_better ? Better::lower
-                                       : Better::higher};
+    return {name, std::string(known->heading), known->scale, better_of(known->direction)};
 }
 
 double distance_from_best(Better better, double value, double real) {
