@@ -25,7 +25,7 @@ std::string text_of(const hdf5::Reader& file, const std::string& attribute) {
 
 std::string kind_of(const std::filesystem::path& weights) {
     const hdf5::Reader file(weights);
-    if (file.has_attribute("model") && text_of(file, "model") == "generator")
+    if (file.has_attribute("model") && !file.has_attribute("channels"))
         throw Error("{}: holds a generator; give a recogniser's training or its weights", weights.string());
     return file.has_attribute("kind") ? text_of(file, "kind") : kinds[0].name;
 }

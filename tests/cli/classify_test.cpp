@@ -1,6 +1,7 @@
 // `actformer classify` as its users meet it, beside a plain forward pass.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>

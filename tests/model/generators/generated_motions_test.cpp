@@ -90,8 +90,8 @@ TEST_F(ScoreGenerator, GoesOnWhereItWasInterrupted) {
     const auto json = nlohmann::json::parse(read_file(at("s.json")));
     EXPECT_EQ(json["fid_whole"]["repeats"][0], json["fid_whole"]["repeats"][1]);
     EXPECT_FALSE(fs::exists(at("s.json.work")));
-    EXPECT_NE(scored(generator("--repeats 2"))["fid_whole"]["repeats"][0], json["fid_whole"]["repeats"][1])
-        << "or both seeds would be the same anyway";
+    const auto both = scored(generator("--repeats 2"))["fid_whole"]["repeats"];
+    EXPECT_NE(both[0], both[1]) << "or the seeds would be alike anyway";
 }
 
 TEST_F(ScoreGenerator, RefusesWhatDoesNotFit) {
