@@ -134,7 +134,7 @@ double fitting_scale(double height) {
     for (const double unit : {1.0, 0.3048, 0.0254 / 0.45, 0.0254, 0.01, 0.001})
         if (std::abs(std::log(unit * height / person)) < std::abs(std::log(best * height / person)))
             best = unit;
-    if (std::abs(std::log(best * height / person)) <= std::log(2.5)) return best;
+    if (std::abs(std::log(best * height / person)) <= std::log(3)) return best;
     const double exact = person / height, digits = std::pow(10, std::floor(std::log10(exact)) - 1);
     return std::round(exact / digits) * digits;
 }

@@ -29,7 +29,7 @@ bool begins_with_jump(const Recording& recording, std::size_t root);
 bool stands_still(const Recording& recording);
 
 /// The unit, in metres, in which a body of `height` units is nearest to 1.7 m: metre, foot, 1/0.45 inch (CMU's), inch, centimetre or
-/// millimetre; where none brings it within a factor of 2.5, what makes it 1.7 m, to two digits.
+/// millimetre; where none brings it within a factor of 3, what makes it 1.7 m, to two digits.
 double fitting_scale(double height);
 
 }  // namespace actformer::ingest
