@@ -54,7 +54,7 @@ TEST_F(BvhIngest, AClassWhoseFilesAreBrokenIsNone) {
     EXPECT_EQ(summary.left_out.at("broken"), 1U);
     EXPECT_EQ(summary.remarks.back(), "no clip was left of run: it is not among the classes");
     EXPECT_EQ(summary.remarks.front(), "root 'Hips', 5 joints");
-    EXPECT_EQ(verify_dataset(dir_ / "out"), std::vector<std::string>{});
+    EXPECT_EQ(verify_dataset(dir_ / "out").faults, std::vector<std::string>{});
 }
 
 TEST_F(BvhIngest, FilesOfOneNameInSeveralFoldersAreClips) {

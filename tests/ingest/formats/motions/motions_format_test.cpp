@@ -151,7 +151,7 @@ TEST_F(MotionsOnDevice, PositionsBecomeLimbs) {
     }
     EXPECT_NEAR(dataset.bone_length(1)[1], length, 1e-6);
     EXPECT_EQ(summary.left_out.size(), 0U);
-    EXPECT_TRUE(verify_dataset(dir / "out").empty());
+    EXPECT_TRUE(verify_dataset(dir / "out").faults.empty());
 }
 
 TEST_F(MotionsOnDevice, ManyClipsOfAnArrayHaveTheirLabels) {
