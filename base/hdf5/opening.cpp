@@ -1,25 +1,16 @@
 #include "base/hdf5/opening.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <fstream>
 
 #include "base/error.hpp"
+#include "base/files/lock.hpp"
 
 namespace actformer::hdf5 {
 namespace {
-
-/// Whether another program holds the file as the HDF5 library does while it writes: by an exclusive flock.
-bool written_elsewhere(const std::filesystem::path& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) return false;
-    const bool locked = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    ::close(file);
-    return locked;
-}
 
 /// Superblocks of version 3 (h5py's libver='latest') note that the file is open for writing. A program that is killed leaves the
 /// note behind.
@@ -44,7 +35,7 @@ Handle open_to_read(const std::filesystem::path& path) {
         throw Error("{}: cannot be read: {}", path.string(), std::generic_category().message(errno));
     Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     if (file) return file;
-    if (written_elsewhere(path))
+    if (FileLock::is_held(path))  // as the library holds what it writes
         throw Error(
             "{}: open for writing elsewhere; close it there, or set HDF5_USE_FILE_LOCKING=FALSE to read it "
             "all "
