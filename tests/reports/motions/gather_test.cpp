@@ -1,5 +1,5 @@
 // Motions to draw, gathered from datasets and motions files in every representation.
-#include "reports/figures/gather.hpp"
+#include "reports/motions/gather.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,16 +16,16 @@ using ingest::Representation;
 namespace {
 
 /// The joints of clip c1_4 are those of its closed form.
-void expect_arms(const Figure& figure, Representation how) {
+void expect_arms(const JointMotion& motion, Representation how) {
     const ArmsClip clip(1, 4, 40);
-    ASSERT_EQ(figure.frames, 40U);
-    EXPECT_EQ(figure.topology, ArmsClip::topology());
+    ASSERT_EQ(motion.frames, 40U);
+    EXPECT_EQ(motion.topology, ArmsClip::topology());
     // Limbs are shorter than 1 by 1e-4 over their length, twice down an arm; else float32's rounding.
     const double tolerance = how == Representation::limb ? 3e-4 : 3e-7;
     for (std::uint32_t t = 0; t < 40; ++t) {
         const auto wanted = clip.positions(t);
         for (std::size_t i = 0; i < wanted.size(); ++i)
-            ASSERT_NEAR(figure.at(t, 0, i / 3)[i % 3], wanted[i], tolerance) << how.name() << ", frame " << t;
+            ASSERT_NEAR(motion.at(t, 0, i / 3)[i % 3], wanted[i], tolerance) << how.name() << ", frame " << t;
     }
 }
 
