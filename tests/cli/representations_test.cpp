@@ -55,10 +55,11 @@ struct Chain {
 
 void expect_recogniser(const Chain& chain) {
     chain.run("train recogniser -c " + chain.at("recogniser.yaml") + " -o " + chain.at("recogniser"));
-    const auto log = log_of(chain.dir / "recogniser");
-    ASSERT_FALSE(log.empty());
+    double accuracy = 0;
+    for (const auto& line : log_of(chain.dir / "recogniser"))
+        accuracy = line.value("class_accuracy", accuracy);
     // Which of three arms swings can be seen in any representation; chance is a third.
-    EXPECT_GT(log.back().at("class_accuracy").get<double>(), 0.6) << chain.how.name();
+    EXPECT_GT(accuracy, 0.6) << chain.how.name();
     const auto weights = eval::read_weights(chain.dir / "recogniser/weights-last.h5");
     EXPECT_EQ(weights.representation, chain.how);
     EXPECT_EQ(weights.channels, chain.how.numbers());
