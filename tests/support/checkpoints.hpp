@@ -23,7 +23,8 @@ inline std::string newest(const std::filesystem::path& run) {
 /// Every array's numbers by name.
 inline auto numbers_of(const std::filesystem::path& file) {
     std::map<std::string, decltype(model::Array::values)> numbers;
-    for (const auto& array : model::read_checkpoint(file).value().arrays) numbers[array.name] = array.values;
+    const auto checkpoint = model::read_checkpoint(file).value();
+    for (const auto& array : checkpoint.arrays) numbers[array.name] = array.values;
     return numbers;
 }
 
