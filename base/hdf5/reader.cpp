@@ -123,23 +123,30 @@ std::vector<std::string> Reader::read_strings(const std::string& name) const {
 struct Reader::Attribute {
     Handle handle, type;
     std::size_t count = 0;
+    std::string where;
 
-    void read(hid_t as, void* to, const std::string& where) const {
+    void read(hid_t as, void* to) const {
         if (count > 0 && H5Aread(handle.get(), as, to) < 0) throw Error("{} cannot be read: damaged", where);
     }
 };
 
-bool Reader::has_attribute(const std::string& name) const {
-    return H5Aexists(file_.get(), name.c_str()) > 0;
+bool Reader::has_attribute(const std::string& name, const std::string& of) const {
+    return H5Aexists_by_name(file_.get(), of.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
-Reader::Attribute Reader::open_attribute(const std::string& name, H5T_class_t kind, const char* what) const {
-    if (!has_attribute(name)) throw Error("{}: has no attribute '{}'", path_.string(), name);
-    Attribute attribute{Handle(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose), {}, 0};
+Reader::Attribute Reader::open_attribute(const std::string& name, const std::string& of, H5T_class_t kind,
+                                         const char* what) const {
+    const auto where = of == "/" ? path_.string() : fmt::format("{}: '{}'", path_.string(), of);
+    if (!has_attribute(name, of)) throw Error("{}: has no attribute '{}'", where, name);
+    Attribute attribute{
+        Handle(H5Aopen_by_name(file_.get(), of.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose),
+        {},
+        0,
+        fmt::format("{}: attribute '{}'", where, name)};
     attribute.type = Handle(H5Aget_type(attribute.handle.get()), H5Tclose);
     const Handle space(H5Aget_space(attribute.handle.get()), H5Sclose);
     if (!attribute.type || H5Tget_class(attribute.type.get()) != kind || !space)
-        throw Error("{}: attribute '{}' holds no {}", path_.string(), name, what);
+        throw Error("{} holds no {}", attribute.where, what);
     attribute.count =
         static_cast<std::size_t>(std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0));
     return attribute;
@@ -157,28 +164,27 @@ std::vector<std::string> Reader::read_variable_strings(const Handle& set, const 
     return values;
 }
 
-std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {
-    const auto attribute = open_attribute(name, H5T_INTEGER, "whole numbers");
+std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name, const std::string& of) const {
+    const auto attribute = open_attribute(name, of, H5T_INTEGER, "whole numbers");
     std::vector<std::int64_t> values(attribute.count);
-    attribute.read(H5T_NATIVE_INT64, values.data(), fmt::format("{}: attribute '{}'", path_.string(), name));
+    attribute.read(H5T_NATIVE_INT64, values.data());
     return values;
 }
 
-std::vector<float> Reader::attribute_floats(const std::string& name) const {
-    const auto attribute = open_attribute(name, H5T_FLOAT, "numbers");
+std::vector<float> Reader::attribute_floats(const std::string& name, const std::string& of) const {
+    const auto attribute = open_attribute(name, of, H5T_FLOAT, "numbers");
     std::vector<float> values(attribute.count);
-    attribute.read(H5T_NATIVE_FLOAT, values.data(), fmt::format("{}: attribute '{}'", path_.string(), name));
+    attribute.read(H5T_NATIVE_FLOAT, values.data());
     return values;
 }
 
-std::vector<std::string> Reader::attribute_texts(const std::string& name) const {
-    const auto attribute = open_attribute(name, H5T_STRING, "text");
+std::vector<std::string> Reader::attribute_texts(const std::string& name, const std::string& of) const {
+    const auto attribute = open_attribute(name, of, H5T_STRING, "text");
     if (H5Tis_variable_str(attribute.type.get()) != 0)
-        throw Error("{}: attribute '{}' holds no fixed-length strings", path_.string(), name);
+        throw Error("{} holds no fixed-length strings", attribute.where);
     const auto size = H5Tget_size(attribute.type.get());
     std::vector<char> text(attribute.count * size);
-    attribute.read(attribute.type.get(), text.data(),
-                   fmt::format("{}: attribute '{}'", path_.string(), name));
+    attribute.read(attribute.type.get(), text.data());
     return unpacked(text, attribute.count, size);
 }
 

@@ -38,16 +38,18 @@ class Reader {
     /// Of fixed or variable length.
     std::vector<std::string> read_strings(const std::string& name) const;
 
-    bool has_attribute(const std::string& name) const;
+    /// Of the root group, or of the array `of`.
+    bool has_attribute(const std::string& name, const std::string& of = "/") const;
 
-    /// Whole numbers in an attribute of the root group, one or many; the same of other numbers and of texts.
-    std::vector<std::int64_t> attribute_numbers(const std::string& name) const;
-    std::vector<float> attribute_floats(const std::string& name) const;
-    std::vector<std::string> attribute_texts(const std::string& name) const;
+    /// Whole numbers in an attribute, one or many; the same of other numbers and of texts.
+    std::vector<std::int64_t> attribute_numbers(const std::string& name, const std::string& of = "/") const;
+    std::vector<float> attribute_floats(const std::string& name, const std::string& of = "/") const;
+    std::vector<std::string> attribute_texts(const std::string& name, const std::string& of = "/") const;
 
   private:
     struct Attribute;
-    Attribute open_attribute(const std::string& name, H5T_class_t kind, const char* what) const;
+    Attribute open_attribute(const std::string& name, const std::string& of, H5T_class_t kind,
+                             const char* what) const;
     static std::size_t elements(const Shape& shape);
     Handle open(const std::string& name) const;
     void read_into(const std::string& name, hid_t type, void* to) const;

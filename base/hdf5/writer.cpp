@@ -131,39 +131,42 @@ void Writer::write_strings(const std::string& name, const std::vector<std::strin
     write_from(name, string_type(all.size).get(), {values.size()}, all.text.data(), 0);
 }
 
-void Writer::attribute_from(const std::string& name, hid_t type, const Handle& space, const void* value) {
-    const auto attribute =
-        checked(H5Acreate2(file_.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                "adding an attribute");
+void Writer::attribute_from(const std::string& name, const std::string& of, hid_t type, const Handle& space,
+                            const void* value) {
+    const auto attribute = checked(H5Acreate_by_name(file_.get(), of.c_str(), name.c_str(), type, space.get(),
+                                                     H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                                   H5Aclose, "adding an attribute");
     H5Awrite(attribute.get(), type, value);
 }
 
-void Writer::attribute(const std::string& name, const std::string& value) {
-    attribute_from(name, string_type(value.size()).get(), Handle(H5Screate(H5S_SCALAR), H5Sclose),
+void Writer::attribute(const std::string& name, const std::string& value, const std::string& of) {
+    attribute_from(name, of, string_type(value.size()).get(), Handle(H5Screate(H5S_SCALAR), H5Sclose),
                    value.data());
 }
 
-void Writer::attribute(const std::string& name, std::int64_t value) {
-    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate(H5S_SCALAR), H5Sclose), &value);
+void Writer::attribute(const std::string& name, std::int64_t value, const std::string& of) {
+    attribute_from(name, of, H5T_NATIVE_INT64, Handle(H5Screate(H5S_SCALAR), H5Sclose), &value);
 }
 
-void Writer::attribute(const std::string& name, const std::vector<std::int64_t>& values) {
+void Writer::attribute(const std::string& name, const std::vector<std::int64_t>& values,
+                       const std::string& of) {
     const hsize_t count = values.size();
-    attribute_from(name, H5T_NATIVE_INT64, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
+    attribute_from(name, of, H5T_NATIVE_INT64, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
                    values.data());
 }
 
-void Writer::attribute(const std::string& name, const std::vector<float>& values) {
+void Writer::attribute(const std::string& name, const std::vector<float>& values, const std::string& of) {
     const hsize_t count = values.size();
-    attribute_from(name, H5T_NATIVE_FLOAT, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
+    attribute_from(name, of, H5T_NATIVE_FLOAT, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
                    values.data());
 }
 
-void Writer::attribute(const std::string& name, const std::vector<std::string>& values) {
+void Writer::attribute(const std::string& name, const std::vector<std::string>& values,
+                       const std::string& of) {
     const auto all = packed(values);
     const hsize_t count = values.size();
-    attribute_from(name, string_type(all.size).get(), Handle(H5Screate_simple(1, &count, nullptr), H5Sclose),
-                   all.text.data());
+    attribute_from(name, of, string_type(all.size).get(),
+                   Handle(H5Screate_simple(1, &count, nullptr), H5Sclose), all.text.data());
 }
 
 void Writer::image(const std::function<void(std::string_view)>& use) {

@@ -1,5 +1,7 @@
 #include "ingest/dataset/motions_file.hpp"
 
+#include <limits>
+
 #include "base/error.hpp"
 #include "base/files/aside.hpp"
 #include "base/hdf5/reader.hpp"
@@ -58,6 +60,19 @@ Motion MotionsFile::read(const std::string& name) const {
     return motion;
 }
 
+MotionDetails MotionsFile::details(const std::string& name) const {
+    MotionDetails details;
+    if (file_->reader.has_attribute("label", name)) {
+        const auto label = file_->reader.attribute_numbers("label", name);
+        if (label.size() != 1 || label[0] < 0 || label[0] > std::numeric_limits<std::int32_t>::max())
+            throw Error("{}: '{}' has a label that is no number from 0", path_.string(), name);
+        details.label = static_cast<std::uint32_t>(label[0]);
+    }
+    if (file_->reader.has_attribute("bone_length", name))
+        details.bone_length = file_->reader.attribute_floats("bone_length", name);
+    return details;
+}
+
 struct MotionsWriter::Handle {
     explicit Handle(const std::filesystem::path& path) : aside(path), writer(aside.partial()) {}
     Aside aside;
@@ -67,7 +82,7 @@ struct MotionsWriter::Handle {
 MotionsWriter::MotionsWriter(const std::filesystem::path& path) : file_(new Handle(path)) {}
 MotionsWriter::~MotionsWriter() = default;
 
-void MotionsWriter::add(const std::string& name, const Motion& motion) {
+void MotionsWriter::add(const std::string& name, const Motion& motion, const MotionDetails& details) {
     std::vector<float> turned(motion.values.size());
     float* to = turned.data();
     for (std::size_t p = 0; p < motion.persons; ++p)
@@ -75,6 +90,8 @@ void MotionsWriter::add(const std::string& name, const Motion& motion) {
             for (std::size_t k = 0; k < motion.nodes; ++k)
                 for (std::size_t t = 0; t < motion.frames; ++t) *to++ = motion.at(t, p, k)[d];
     file_->writer.write<float>(name, {motion.persons * motion.numbers, motion.nodes, motion.frames}, turned);
+    if (details.label) file_->writer.attribute("label", std::int64_t{*details.label}, name);
+    if (!details.bone_length.empty()) file_->writer.attribute("bone_length", details.bone_length, name);
 }
 
 void MotionsWriter::describe(const Subjects& subjects) {
