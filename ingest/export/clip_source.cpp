@@ -23,7 +23,8 @@ class DatasetClips : public ClipSource {
 
   protected:
     ExportClip read_unchecked(std::size_t clip) const override {
-        return {clips_[clip], public_name(clips_[clip].name, dataset_.clips()[clip].label), dataset_.motion(clip), dataset_.body(clip)};
+        return {clips_[clip], public_name(clips_[clip].name, dataset_.clips()[clip].label),
+                dataset_.motion(clip), dataset_.body(clip)};
     }
 
   private:

@@ -52,7 +52,7 @@ Target target_of(const ExportRequest& request) {
 
 class Export {
   public:
-    Export(const ExportRequest& request, const ClipSource& source, Target target)
+    Export(const ExportRequest& request, const ClipSource& source, Target target, std::size_t first)
         : request_(request),
           source_(source),
           target_(target),
@@ -62,7 +62,7 @@ class Export {
             keep_lengths_of(request.selection.person);
         }
         if (target.format->skeletons && source.subjects().representation != Representation::rot6d)
-            context_.pose = rest_pose(source);
+            context_.pose = rest_pose(source.read(first));
         summary_.format = target.format->name;
         summary_.representation = source.subjects().representation.name();
     }
@@ -148,7 +148,7 @@ ExportSummary export_clips(const ExportRequest& request,
     const auto target = target_of(request);
     const auto source = open_clips(request.input, request.bones);
     const auto picks = selected(*source, request.selection);
-    return Export(request, *source, target).run(picks, progress);
+    return Export(request, *source, target, picks[0]).run(picks, progress);
 }
 
 }  // namespace actformer::ingest

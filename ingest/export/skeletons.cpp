@@ -84,11 +84,11 @@ std::vector<Point> clip_joints(const ExportClip& clip) {
     return out;
 }
 
-std::vector<Point> rest_pose(const ClipSource& source) {
-    const auto& topology = source.subjects().topology;
+std::vector<Point> rest_pose(const ExportClip& first) {
+    const auto& topology = first.body.topology;
     auto pose = t_pose(topology);
     if (!pose.empty()) return pose;
-    const auto joints = clip_joints(source.read(0));
+    const auto joints = clip_joints(first);
     pose.assign(topology.joints(), Point{});
     for (std::size_t j = 1; j < pose.size(); ++j)
         for (std::size_t d = 0; d < 3; ++d)

@@ -10,9 +10,9 @@ namespace actformer::ingest {
 /// normalisation took from a limb is not missed here.
 std::vector<Point> clip_joints(const ExportClip& clip);
 
-/// The rest pose for the clips of a source, (K) directions from the parent: a T pose where the skeleton is a known one, else that
-/// of the first person in the first frame of the first clip.
-std::vector<Point> rest_pose(const ClipSource& source);
+/// (K) directions from the parent to take as the rest pose of all clips of an export of which this is the first: a T pose where
+/// the skeleton is a known one, else that of the clip's first person in its first frame.
+std::vector<Point> rest_pose(const ExportClip& first);
 
 /// One a person. Rotations are taken as they are, on their rest skeleton. Limbs and positions give joints, and these
 /// minimal_twist on `pose`. Throws Error naming the clip where a rotation is none.

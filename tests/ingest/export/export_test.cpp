@@ -79,7 +79,7 @@ TEST_P(InEveryRepresentation, JointsComeOut) {
 
 // The arms keep their lengths and angles: rotations alone do.
 TEST_P(InEveryRepresentation, SkeletonsTurnToTheJoints) {
-    const auto pose = rest_pose(*source);
+    const auto pose = rest_pose(source->read(0));
     for (const std::size_t clip : {0U, 17U, 47U}) {
         const auto read = source->read(clip);
         const auto skeletons = skeletons_of(read, pose);
