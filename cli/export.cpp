@@ -1,54 +1,91 @@
-// actformer export: a dataset or one split of it in the public ActFormer layout.
+// actformer export: clips for other programs.
+#include "ingest/export/export.hpp"
+
 #include <fmt/format.h>
 
-#include "base/error.hpp"
+#include <nlohmann/json.hpp>
+
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
-#include "ingest/dataset/dataset.hpp"
-#include "ingest/dataset/motions_file.hpp"
+#include "ingest/export/export_format.hpp"
 
 namespace actformer::cli {
 namespace {
 
 struct Options {
-    std::string dataset, out, split = "all";
+    ingest::ExportRequest request;
+    bool json = false;
 };
 
-void run(const Options& options) {
-    const auto folders = ingest::datasets_at(options.dataset);
-    if (folders.size() != 1)
-        throw Error("{}: holds {} datasets; export one at a time, as in {}", options.dataset, folders.size(),
-                    folders[0].string());
-    const ingest::Dataset dataset(folders[0]);
-    const auto clips = dataset.split(options.split);
-    if (clips.empty()) throw Error("{}: split {} holds no clip", options.dataset, options.split);
+void print_text(const ingest::ExportSummary& summary, const Options& options) {
+    const auto folder = summary.files.size() != 1 || summary.files[0] != options.request.out;
+    fmt::print("{}: {}, {}{}\n", options.request.out.string(), counted(summary.clips, "clip"),
+               counted(summary.frames, "frame"), folder ? ", " + counted(summary.files.size(), "file") : "");
+    for (const auto& note : summary.notes) fmt::print("  {}\n", note);
+}
 
-    Progress progress("export", "clips");
-    ingest::MotionsWriter writer(options.out);
-    writer.describe(ingest::subjects_of(dataset));
-    for (std::size_t i = 0; i < clips.size(); ++i) {
-        const auto& clip = dataset.clips()[clips[i]];
-        writer.add(ingest::public_name(clip.name, clip.label), dataset.motion(clips[i]));
-        progress.update(static_cast<double>(i + 1) / static_cast<double>(clips.size()), i + 1);
-    }
-    writer.finish();
+void print_json(const ingest::ExportSummary& summary) {
+    nlohmann::ordered_json json{{"format", summary.format}, {"representation", summary.representation},
+                                {"clips", summary.clips},   {"frames", summary.frames},
+                                {"notes", summary.notes},   {"files", nlohmann::ordered_json::array()}};
+    for (const auto& file : summary.files) json["files"].push_back(file.string());
+    fmt::print("{}\n", json.dump(2));
+}
+
+void run(const Options& options) {
+    Progress progress("export", "clips", options.json);
+    const auto summary = ingest::export_clips(options.request, [&](std::size_t done, std::size_t all) {
+        progress.update(static_cast<double>(done) / static_cast<double>(all), done);
+    });
     progress.clear();
-    fmt::print("{}: {} of split {}, each ({}, {}, frames)\n", options.out, counted(clips.size(), "clip"),
-               options.split, dataset.header().persons * dataset.header().representation.numbers(),
-               dataset.header().nodes());
+    options.json ? print_json(summary) : print_text(summary, options);
+}
+
+std::string formats(const std::string& before) {
+    std::string text;
+    for (const auto& format : ingest::export_formats())
+        text += fmt::format("{}{}{} ({})", text.empty() ? "" : "; ", before, format.name, format.holds);
+    return text;
 }
 
 }  // namespace
 
 void add_export(CLI::App& app) {
     auto options = std::make_shared<Options>();
-    auto* command =
-        app.add_subcommand("export", "Write a dataset in the public layout: one (P*C, K, T) array a clip");
-    command->add_option("dataset", options->dataset, "Dataset folder")->required()->type_name("DATASET");
-    command->add_option("-o,--out", options->out, "HDF5 file to make")->required()->type_name("FILE.h5");
-    command->add_option("--split", options->split, "As in xsub/train (default: all clips)");
-    examples(command, "  actformer export ntu/ntu-1p -o ntu1p-xsub-train.h5 --split xsub/train\n");
+    auto& request = options->request;
+    auto& selection = request.selection;
+    auto* command = app.add_subcommand("export", "Write motions for other programs: .h5, .npz, .bvh, .glb");
+    command->add_option("input", request.input, "Dataset folder, or motions as generate makes them")
+        ->required()
+        ->type_name("DATASET|MOTIONS.h5");
+    command
+        ->add_option(
+            "-o,--out", request.out,
+            "File to make, of a kind told by its ending: " + formats(".") + ". Or a folder, with --format")
+        ->required()
+        ->type_name("OUT");
+    command
+        ->add_option("--format", request.format,
+                     "Make a folder with a file a clip of this kind: h5, npz, bvh or glb")
+        ->type_name("KIND");
+    command->add_option("--split", selection.split, "As in xsub/train (default: all clips)");
+    command->add_option("--class", selection.label, "Clips of this class: its name, or its number from 1");
+    command->add_option("--clip", selection.clips, "This clip; may be given again")->allow_extra_args(false);
+    command->add_option("--count", selection.count, "So many of them, evenly spaced (default: all)")
+        ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 40));
+    command->add_option("--person", selection.person, "This person alone, a number from 1 (default: all)")
+        ->check(CLI::Range(1U, 1'000'000U));
+    command
+        ->add_option("--bones", request.bones,
+                     "Dataset whose skeleton and mean limb lengths motions get, before their file's own")
+        ->type_name("DATASET");
+    command->add_flag("--json", options->json, "Print JSON");
+    examples(command,
+             "  actformer export ntu/ntu-1p -o xsub-train.h5 --split xsub/train\n"
+             "  actformer export ntu/ntu-2p -o joints.npz\n"
+             "  actformer export ntu/ntu-2p -o handshake.glb --class \"shaking hands\" --count 1\n"
+             "  actformer export generated.h5 -o walks/ --format bvh --class walk\n");
     command->callback([options] { run(*options); });
 }
 

@@ -217,52 +217,59 @@ std::string Reader::bytes_at(std::uint64_t offset, std::uint64_t size) const {
 struct Reader::Attribute {
     Handle handle, type;
     std::size_t count = 0;
+    std::string where;  ///< the file, what it belongs to and its name
 };
 
-bool Reader::has_attribute(const std::string& name) const {
-    return H5Aexists(file_.get(), name.c_str()) > 0;
+bool Reader::has_attribute(const std::string& name, const std::string& of) const {
+    return H5Aexists_by_name(file_.get(), of.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
-Reader::Attribute Reader::open_attribute(const std::string& name, H5T_class_t kind, const char* what) const {
-    if (!has_attribute(name)) fail("has no attribute '{}'", name);
-    Attribute attribute{Handle(H5Aopen(file_.get(), name.c_str(), H5P_DEFAULT), H5Aclose), {}, 0};
+Reader::Attribute Reader::open_attribute(const std::string& name, const std::string& of, H5T_class_t kind,
+                                         const char* what) const {
+    const auto owner = of == "/" ? std::string() : fmt::format("'{}' ", of);
+    if (!has_attribute(name, of)) fail("{}has no attribute '{}'", owner, name);
+    Attribute attribute{
+        Handle(H5Aopen_by_name(file_.get(), of.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose),
+        {},
+        0,
+        of == "/" ? fmt::format("attribute '{}'", name) : fmt::format("attribute '{}' of '{}'", name, of)};
     attribute.type = Handle(H5Aget_type(attribute.handle.get()), H5Tclose);
     const Handle space(H5Aget_space(attribute.handle.get()), H5Sclose);
     if (!attribute.type || H5Tget_class(attribute.type.get()) != kind || !space)
-        fail("attribute '{}' holds no {}", name, what);
+        fail("{} holds no {}", attribute.where, what);
     const auto count = std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0);
     attribute.count = static_cast<std::size_t>(count);
     if (product(attribute.count, H5Tget_size(attribute.type.get())) > bytes_)
-        fail("attribute '{}' is larger than the file: damaged", name);
+        fail("{} is larger than the file: damaged", attribute.where);
     return attribute;
 }
 
-void Reader::read_attribute(const Attribute& attribute, hid_t as, void* to, const std::string& name) const {
+void Reader::read_attribute(const Attribute& attribute, hid_t as, void* to) const {
     if (attribute.count > 0 && H5Aread(attribute.handle.get(), as, to) < 0)
-        fail("attribute '{}' cannot be read: damaged", name);
+        fail("{} cannot be read: damaged", attribute.where);
 }
 
-std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name) const {
-    const auto attribute = open_attribute(name, H5T_INTEGER, "whole numbers");
+std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name, const std::string& of) const {
+    const auto attribute = open_attribute(name, of, H5T_INTEGER, "whole numbers");
     std::vector<std::int64_t> values(attribute.count);
-    read_attribute(attribute, H5T_NATIVE_INT64, values.data(), name);
+    read_attribute(attribute, H5T_NATIVE_INT64, values.data());
     return values;
 }
 
-std::vector<float> Reader::attribute_floats(const std::string& name) const {
-    const auto attribute = open_attribute(name, H5T_FLOAT, "numbers");
+std::vector<float> Reader::attribute_floats(const std::string& name, const std::string& of) const {
+    const auto attribute = open_attribute(name, of, H5T_FLOAT, "numbers");
     std::vector<float> values(attribute.count);
-    read_attribute(attribute, H5T_NATIVE_FLOAT, values.data(), name);
+    read_attribute(attribute, H5T_NATIVE_FLOAT, values.data());
     return values;
 }
 
-std::vector<std::string> Reader::attribute_texts(const std::string& name) const {
-    const auto attribute = open_attribute(name, H5T_STRING, "text");
+std::vector<std::string> Reader::attribute_texts(const std::string& name, const std::string& of) const {
+    const auto attribute = open_attribute(name, of, H5T_STRING, "text");
     if (H5Tis_variable_str(attribute.type.get()) != 0)
-        fail("attribute '{}' holds no fixed-length strings", name);
+        fail("{} holds no fixed-length strings", attribute.where);
     const auto size = H5Tget_size(attribute.type.get());
     std::vector<char> text(attribute.count * size);
-    read_attribute(attribute, attribute.type.get(), text.data(), name);
+    read_attribute(attribute, attribute.type.get(), text.data());
     return unpacked(text, attribute.count, size);
 }
 

@@ -50,12 +50,13 @@ class Reader {
     /// Of fixed or variable length; of variable length in one piece, as h5py writes them unless told otherwise.
     std::vector<std::string> read_strings(const std::string& name) const;
 
-    bool has_attribute(const std::string& name) const;
+    /// Of the root group, or of the array `of`.
+    bool has_attribute(const std::string& name, const std::string& of = "/") const;
 
-    /// Whole numbers in an attribute of the root group, one or many; the same of other numbers and of texts.
-    std::vector<std::int64_t> attribute_numbers(const std::string& name) const;
-    std::vector<float> attribute_floats(const std::string& name) const;
-    std::vector<std::string> attribute_texts(const std::string& name) const;
+    /// Whole numbers in an attribute, one or many; the same of other numbers and of texts.
+    std::vector<std::int64_t> attribute_numbers(const std::string& name, const std::string& of = "/") const;
+    std::vector<float> attribute_floats(const std::string& name, const std::string& of = "/") const;
+    std::vector<std::string> attribute_texts(const std::string& name, const std::string& of = "/") const;
 
     /// Called with an array's name and its stored bytes in order, a chunk or a megabyte at a time.
     using See = std::function<void(const std::string& name, std::string_view bytes)>;
@@ -80,8 +81,9 @@ class Reader {
     Array open(const std::string& name) const;
     void refuse_external_links(const std::string& name) const;
     void check_layout(Array& array) const;
-    Attribute open_attribute(const std::string& name, H5T_class_t kind, const char* what) const;
-    void read_attribute(const Attribute& attribute, hid_t as, void* to, const std::string& name) const;
+    Attribute open_attribute(const std::string& name, const std::string& of, H5T_class_t kind,
+                             const char* what) const;
+    void read_attribute(const Attribute& attribute, hid_t as, void* to) const;
     void read_into(const Array& array, hid_t type, void* to) const;
     std::string bytes_at(std::uint64_t offset, std::uint64_t size) const;  ///< fewer where the file ends
     std::string checksum_of(const Array& array, const See& see) const;

@@ -144,39 +144,42 @@ void Writer::write_strings(const std::string& name, const std::vector<std::strin
     write_from(name, string_type(all.size).get(), {values.size()}, all.text.data(), 0);
 }
 
-void Writer::attribute_from(const std::string& name, hid_t type, const Shape& shape, const void* value) {
+void Writer::attribute_from(const std::string& name, const std::string& of, hid_t type, const Shape& shape,
+                            const void* value) {
     const Handle space(shape.empty()
                            ? H5Screate(H5S_SCALAR)
                            : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                        H5Sclose);
-    const auto attribute =
-        checked(H5Acreate2(file_.get(), name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                "adding an attribute");
+    const auto attribute = checked(H5Acreate_by_name(file_.get(), of.c_str(), name.c_str(), type, space.get(),
+                                                     H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                                   H5Aclose, "adding an attribute");
     H5Awrite(attribute.get(), type, value);
     const auto bytes = std::accumulate(shape.begin(), shape.end(), H5Tget_size(type), std::multiplies<>());
-    contents_.add_attribute("", name, type, shape, {static_cast<const char*>(value), bytes});
+    contents_.add_attribute(of == "/" ? std::string() : of, name, type, shape, {static_cast<const char*>(value), bytes});
 }
 
-void Writer::attribute(const std::string& name, const std::string& value) {
+void Writer::attribute(const std::string& name, const std::string& value, const std::string& of) {
     const auto all = packed({value});
-    attribute_from(name, string_type(all.size).get(), {}, all.text.data());
+    attribute_from(name, of, string_type(all.size).get(), {}, all.text.data());
 }
 
-void Writer::attribute(const std::string& name, std::int64_t value) {
-    attribute_from(name, H5T_NATIVE_INT64, {}, &value);
+void Writer::attribute(const std::string& name, std::int64_t value, const std::string& of) {
+    attribute_from(name, of, H5T_NATIVE_INT64, {}, &value);
 }
 
-void Writer::attribute(const std::string& name, const std::vector<std::int64_t>& values) {
-    attribute_from(name, H5T_NATIVE_INT64, {values.size()}, values.data());
+void Writer::attribute(const std::string& name, const std::vector<std::int64_t>& values,
+                       const std::string& of) {
+    attribute_from(name, of, H5T_NATIVE_INT64, {values.size()}, values.data());
 }
 
-void Writer::attribute(const std::string& name, const std::vector<float>& values) {
-    attribute_from(name, H5T_NATIVE_FLOAT, {values.size()}, values.data());
+void Writer::attribute(const std::string& name, const std::vector<float>& values, const std::string& of) {
+    attribute_from(name, of, H5T_NATIVE_FLOAT, {values.size()}, values.data());
 }
 
-void Writer::attribute(const std::string& name, const std::vector<std::string>& values) {
+void Writer::attribute(const std::string& name, const std::vector<std::string>& values,
+                       const std::string& of) {
     const auto all = packed(values);
-    attribute_from(name, string_type(all.size).get(), {values.size()}, all.text.data());
+    attribute_from(name, of, string_type(all.size).get(), {values.size()}, all.text.data());
 }
 
 void Writer::image(const std::function<void(std::string_view)>& use) {

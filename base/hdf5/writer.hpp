@@ -30,11 +30,15 @@ class Writer {
     }
 
     void write_strings(const std::string& name, const std::vector<std::string>& values);
-    void attribute(const std::string& name, const std::string& value);
-    void attribute(const std::string& name, std::int64_t value);
-    void attribute(const std::string& name, const std::vector<std::int64_t>& values);
-    void attribute(const std::string& name, const std::vector<float>& values);
-    void attribute(const std::string& name, const std::vector<std::string>& values);
+
+    /// Attributes of the root group, or of the array `of`.
+    void attribute(const std::string& name, const std::string& value, const std::string& of = "/");
+    void attribute(const std::string& name, std::int64_t value, const std::string& of = "/");
+    void attribute(const std::string& name, const std::vector<std::int64_t>& values,
+                   const std::string& of = "/");
+    void attribute(const std::string& name, const std::vector<float>& values, const std::string& of = "/");
+    void attribute(const std::string& name, const std::vector<std::string>& values,
+                   const std::string& of = "/");
 
     /// A chunked, checksummed array that lies in memory in pieces, each some whole rows of the first axis.
     void write_pieces(const std::string& name, const Shape& shape,
@@ -54,7 +58,8 @@ class Writer {
     bool finish();
 
   private:
-    void attribute_from(const std::string& name, hid_t type, const Shape& shape, const void* value);
+    void attribute_from(const std::string& name, const std::string& of, hid_t type, const Shape& shape,
+                        const void* value);
     void note_array(const std::string& name, hid_t type, const Shape& shape, const std::string& checksum);
     Handle create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk);
     void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,

@@ -1,5 +1,7 @@
 #include "ingest/dataset/motions_file.hpp"
 
+#include <limits>
+
 #include "base/error.hpp"
 #include "base/files/aside.hpp"
 #include "base/hdf5/reader.hpp"
@@ -63,6 +65,19 @@ void MotionsFile::check_limbs() const {
             path_.string(), motion.name);
 }
 
+MotionDetails MotionsFile::details(const std::string& name) const {
+    MotionDetails details;
+    if (file_->reader.has_attribute("label", name)) {
+        const auto label = file_->reader.attribute_numbers("label", name);
+        if (label.size() != 1 || label[0] < 0 || label[0] > std::numeric_limits<std::int32_t>::max())
+            throw Error("{}: '{}' has a label that is no number from 0", path_.string(), name);
+        details.label = static_cast<std::uint32_t>(label[0]);
+    }
+    if (file_->reader.has_attribute("bone_length", name))
+        details.bone_length = file_->reader.attribute_floats("bone_length", name);
+    return details;
+}
+
 struct MotionsWriter::Handle {
     explicit Handle(const std::filesystem::path& path) : aside(path), writer(aside.partial()) {}
     Aside aside;
@@ -72,11 +87,13 @@ struct MotionsWriter::Handle {
 MotionsWriter::MotionsWriter(const std::filesystem::path& path) : file_(new Handle(path)) {}
 MotionsWriter::~MotionsWriter() = default;
 
-void MotionsWriter::add(const std::string& name, const Motion& motion) {
+void MotionsWriter::add(const std::string& name, const Motion& motion, const MotionDetails& details) {
     const auto channels = motion.persons * motion.numbers;
     file_->writer.write<float>(
         name, {channels, motion.nodes, motion.frames},
         with_last_axes_swapped(channels_first(motion), channels, motion.frames, motion.nodes));
+    if (details.label) file_->writer.attribute("label", std::int64_t{*details.label}, name);
+    if (!details.bone_length.empty()) file_->writer.attribute("bone_length", details.bone_length, name);
 }
 
 void MotionsWriter::describe(const Subjects& subjects) {

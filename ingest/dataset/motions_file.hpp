@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,12 @@ namespace actformer::ingest {
 /// A clip's name as the public tools expect it: where it ends in A and three digits, as NTU's do, these become label + 1.
 std::string public_name(const std::string& name, std::uint32_t label);
 
+/// What a file may say of one motion.
+struct MotionDetails {
+    std::optional<std::uint32_t> label;  ///< from 0
+    std::vector<float> bone_length;      ///< (persons, joints) metres; empty: as of all motions in the file
+};
+
 /// Reads motions one at a time. Throws Error for a file that is not in the public layout.
 class MotionsFile {
   public:
@@ -26,6 +33,9 @@ class MotionsFile {
 
     const std::vector<std::string>& names() const { return names_; }  ///< sorted
     Motion read(const std::string& name) const;
+
+    /// The attributes `label` and `bone_length` of a motion.
+    MotionDetails details(const std::string& name) const;
 
     Representation representation() const { return representation_; }
 
@@ -51,7 +61,7 @@ class MotionsWriter {
   public:
     explicit MotionsWriter(const std::filesystem::path& path);
     ~MotionsWriter();
-    void add(const std::string& name, const Motion& motion);
+    void add(const std::string& name, const Motion& motion, const MotionDetails& details = {});
 
     /// Attributes of the file: whose motions they are, and a line of where they come from.
     void describe(const Subjects& subjects);

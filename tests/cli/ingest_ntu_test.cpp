@@ -533,12 +533,12 @@ TEST_F(IngestNtu, ExportsOneSplitAndNamesTheSplitsThereAre) {
     clip("S001C001P001R001A001", plain_clip());  // performer 1 trains
     clip("S001C001P003R001A001", plain_clip());  // performer 3 tests
     ASSERT_EQ(ingest().exit, 0);
-    const auto to = (dir / "x.h5").string();
+    const auto to = (dir / "x.h5").string(), other = (dir / "y.h5").string();
     ASSERT_EQ(run_actformer("export " + out() + "/ntu-1p --split xsub/test -o " + to).exit, 0);
     EXPECT_EQ(MotionsFile(to).names(), std::vector<std::string>{"S001C001P003R001A001"});
-    const auto result = run_actformer("export " + out() + "/ntu-1p --split xsub/tset -o " + to + "2");
+    const auto result = run_actformer("export " + out() + "/ntu-1p --split xsub/tset -o " + other);
     EXPECT_EQ(result.exit, 1);
     EXPECT_NE(result.output.find("no split 'xsub/tset'; there is all, xsub/train"), std::string::npos)
         << result.output;
-    EXPECT_FALSE(fs::exists(to + "2"));
+    EXPECT_FALSE(fs::exists(other));
 }

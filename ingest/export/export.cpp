@@ -1,0 +1,154 @@
+#include "ingest/export/export.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/text/printable.hpp"
+#include "ingest/export/export_format.hpp"
+#include "ingest/export/fit_name.hpp"
+#include "ingest/export/skeletons.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string format_names(std::string_view before) {
+    std::string names;
+    for (const auto& format : export_formats())
+        names += fmt::format("{}{}{}", names.empty() ? "" : ", ", before, format.name);
+    return names;
+}
+
+/// What is written, and whether into a folder.
+struct Target {
+    const ExportFormat* format = nullptr;
+    bool folder = false;
+};
+
+Target target_of(const ExportRequest& request) {
+    std::error_code ignored;
+    const auto out = request.out.string();
+    const auto ending = request.out.extension().string();
+    const bool is_folder = out.ends_with('/') || fs::is_directory(request.out, ignored);
+    const auto* by_ending = ending.empty() ? nullptr : export_format(std::string_view(ending).substr(1));
+    if (request.format.empty()) {
+        if (is_folder)
+            throw Error("{}: a folder takes a file a clip: say of what kind with --format, one of {}", out,
+                        format_names(""));
+        if (!by_ending)
+            throw Error("{}: ends in none of {}; or give --format to make a folder of it with a file a clip",
+                        out, format_names("."));
+        return {by_ending, false};
+    }
+    const auto* named = export_format(request.format);
+    if (!named) throw Error("--format {}: there is {}", in_quotes(request.format), format_names(""));
+    if (is_folder || !by_ending) return {named, true};
+    if (by_ending != named)
+        throw Error("{}: ends in {}, but --format says {}; leave one of them out", out, ending,
+                    request.format);
+    return {named, false};
+}
+
+class Export {
+  public:
+    Export(const ExportRequest& request, const ClipSource& source, Target target, std::size_t first)
+        : request_(request),
+          source_(source),
+          target_(target),
+          context_{source.subjects(), {}, source.fingerprint()} {
+        if (request.selection.person > 0) {
+            context_.subjects.persons = 1;
+            keep_lengths_of(request.selection.person);
+        }
+        if (target.format->skeletons && source.subjects().representation != Representation::rot6d)
+            context_.pose = rest_pose(source.read(first));
+        summary_.format = target.format->name;
+        summary_.representation = source.subjects().representation.name();
+    }
+
+    ExportSummary run(const std::vector<std::size_t>& picks,
+                      const std::function<void(std::size_t, std::size_t)>& progress) {
+        if (target_.folder)
+            into_folder(picks, progress);
+        else
+            into_file(picks, progress);
+        return std::move(summary_);
+    }
+
+  private:
+    void into_file(const std::vector<std::size_t>& picks,
+                   const std::function<void(std::size_t, std::size_t)>& progress) {
+        if (picks.size() > 1 && !target_.format->many_clips)
+            throw Error(
+                "{}: a .{} holds one clip and {} are chosen; choose one with --clip, or make a folder of "
+                "them with --format {}",
+                request_.out.string(), target_.format->name, picks.size(), target_.format->name);
+        const auto file = target_.format->open(request_.out, context_);
+        for (std::size_t i = 0; i < picks.size(); ++i) {
+            add(*file, picks[i]);
+            if (progress) progress(i + 1, picks.size());
+        }
+        finish(*file);
+    }
+
+    void into_folder(const std::vector<std::size_t>& picks,
+                     const std::function<void(std::size_t, std::size_t)>& progress) {
+        std::vector<std::string> clips;
+        for (const auto i : picks) clips.push_back(source_.clips()[i].name);
+        const auto names = fit_names(clips, NameFor::file);
+        note(names_changed(clips, names, "file name"));
+        std::error_code failed;
+        fs::create_directories(request_.out, failed);
+        if (failed) throw Error("{}: cannot be made: {}", request_.out.string(), failed.message());
+        for (std::size_t i = 0; i < picks.size(); ++i) {
+            const auto file = target_.format->open(
+                request_.out / fmt::format("{}.{}", names[i], target_.format->name), context_);
+            add(*file, picks[i]);
+            finish(*file);
+            if (progress) progress(i + 1, picks.size());
+        }
+    }
+
+    void add(ExportFile& file, std::size_t clip) {
+        const auto read = with_person(source_.read(clip), request_.selection.person, source_.path().string());
+        file.add(read);
+        ++summary_.clips;
+        summary_.frames += read.motion.frames;
+    }
+
+    void finish(ExportFile& file) {
+        for (auto& path : file.finish()) summary_.files.push_back(std::move(path));
+        note(file.note());
+    }
+
+    void note(const std::string& text) {
+        if (!text.empty() && std::ranges::count(summary_.notes, text) == 0) summary_.notes.push_back(text);
+    }
+
+    void keep_lengths_of(std::size_t person) {
+        auto& lengths = context_.subjects.bone_length;
+        const auto joints = context_.subjects.topology.joints();
+        if (lengths.size() < person * joints) return;
+        lengths = {lengths.begin() + static_cast<std::ptrdiff_t>((person - 1) * joints),
+                   lengths.begin() + static_cast<std::ptrdiff_t>(person * joints)};
+    }
+
+    const ExportRequest& request_;
+    const ClipSource& source_;
+    Target target_;
+    ExportContext context_;
+    ExportSummary summary_;
+};
+
+}  // namespace
+
+ExportSummary export_clips(const ExportRequest& request,
+                           const std::function<void(std::size_t, std::size_t)>& progress) {
+    const auto target = target_of(request);
+    const auto source = open_clips(request.input, request.bones);
+    const auto picks = selected(*source, request.selection);
+    return Export(request, *source, target, picks[0]).run(picks, progress);
+}
+
+}  // namespace actformer::ingest

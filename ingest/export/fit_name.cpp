@@ -1,0 +1,80 @@
+#include "ingest/export/fit_name.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "base/text/printable.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+/// Bytes of the character that `text` starts with: those of UTF-8 that follow the first go with it.
+std::size_t character(std::string_view text) {
+    const auto follows = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
+    std::size_t length = 1;
+    while (length < std::min<std::size_t>(text.size(), 4) && follows(text[length])) ++length;
+    return length;
+}
+
+bool is_allowed(std::string_view character, NameFor use) {
+    const auto c = static_cast<unsigned char>(character[0]);
+    if (c >= 0x80) return use != NameFor::bvh && printable(character) == character;
+    if (c < 0x20 || c == 0x7F) return false;
+    if (use == NameFor::bvh) return c != ' ' && c != '{' && c != '}';
+    constexpr std::string_view reserved = "/\\:*?\"<>|";
+    return use == NameFor::text || reserved.find(character[0]) == std::string_view::npos;
+}
+
+/// The most bytes that leave room for an ending in a file's name, cut where a character ends.
+std::string cut(std::string name) {
+    constexpr std::size_t longest = 200;
+    if (name.size() <= longest) return name;
+    std::size_t end = 0;
+    while (end + character(std::string_view(name).substr(end)) <= longest)
+        end += character(std::string_view(name).substr(end));
+    return name.substr(0, end);
+}
+
+}  // namespace
+
+std::string fit_name(std::string_view name, NameFor use) {
+    std::string out;
+    while (!name.empty()) {
+        const auto c = name.substr(0, character(name));
+        out += is_allowed(c, use) ? std::string(c) : "_";
+        name.remove_prefix(c.size());
+    }
+    if (out.empty()) return "_";
+    if (use != NameFor::file) return out;
+    if (out[0] == '.') out[0] = '_';  // neither hidden nor a way up
+    return cut(out);
+}
+
+std::vector<std::string> fit_names(const std::vector<std::string>& names, NameFor use) {
+    std::vector<std::string> out;
+    std::unordered_set<std::string> taken;
+    for (const auto& name : names) {
+        const auto fit = fit_name(name, use);
+        auto one = fit;
+        for (int i = 2; !taken.insert(one).second; ++i) one = fmt::format("{}_{}", fit, i);
+        out.push_back(one);
+    }
+    return out;
+}
+
+std::string names_changed(const std::vector<std::string>& before, const std::vector<std::string>& after,
+                          std::string_view what) {
+    std::size_t changed = 0, first = 0;
+    for (std::size_t i = before.size(); i-- > 0;)
+        if (before[i] != after[i]) {
+            ++changed;
+            first = i;
+        }
+    if (changed == 0) return {};
+    return fmt::format("{} {}{} changed, as {} to {}", changed, what, changed == 1 ? " was" : "s were",
+                       in_quotes(before[first]), in_quotes(after[first]));
+}
+
+}  // namespace actformer::ingest

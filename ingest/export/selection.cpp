@@ -1,0 +1,93 @@
+#include "ingest/export/selection.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <unordered_set>
+
+#include "base/error.hpp"
+#include "base/text/printable.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+/// The label that a name or a number from 1 stands for.
+std::uint32_t label_called(const std::string& text, const ClipSource& source) {
+    const auto& classes = source.subjects().classes;
+    if (const auto found = std::ranges::find(classes, text); found != classes.end())
+        return static_cast<std::uint32_t>(found - classes.begin());
+    std::uint32_t number = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool whole = error == std::errc() && rest == text.data() + text.size();
+    if (whole && number >= 1 && (classes.empty() || number <= classes.size())) return number - 1;
+    if (classes.empty())
+        throw Error("{}: no class {}; its classes have no names: give a number from 1",
+                    source.path().string(), in_quotes(text));
+    throw Error("{}: no class {}; give a name or a number from 1 ('{}') to {} ('{}')", source.path().string(),
+                in_quotes(text), classes.front(), classes.size(), classes.back());
+}
+
+void keep_named(std::vector<std::size_t>& picks, const ClipSource& source, const Selection& selection) {
+    std::unordered_set<std::string> wanted(selection.clips.begin(), selection.clips.end());
+    std::unordered_set<std::string> there;
+    for (const auto& clip : source.clips()) there.insert(clip.name);
+    for (const auto& name : selection.clips)
+        if (!there.contains(name))
+            throw Error("{}: no clip {}; its clips are called as {}", source.path().string(), in_quotes(name),
+                        in_quotes(source.clips()[0].name));
+    std::erase_if(picks, [&](std::size_t i) { return !wanted.contains(source.clips()[i].name); });
+}
+
+/// The conditions as they were given, for a message.
+std::string in_words(const Selection& selection) {
+    std::string words =
+        selection.split == "all" ? "" : fmt::format(" of split {}", in_quotes(selection.split));
+    if (!selection.label.empty()) words += fmt::format(" of class {}", in_quotes(selection.label));
+    if (!selection.clips.empty()) words += " among those named";
+    return words;
+}
+
+}  // namespace
+
+std::vector<std::size_t> selected(const ClipSource& source, const Selection& selection) {
+    auto picks = source.split(selection.split);
+    if (!selection.clips.empty() && !source.clips().empty()) keep_named(picks, source, selection);
+    if (!selection.label.empty()) {
+        const auto label = label_called(selection.label, source);
+        std::erase_if(picks, [&](std::size_t i) { return source.clips()[i].label != label; });
+    }
+    if (picks.empty())
+        throw Error("{}: holds no clip{}; actformer inspect lists what there is", source.path().string(),
+                    in_words(selection));
+    if (selection.count == 0 || selection.count >= picks.size()) return picks;
+    std::vector<std::size_t> some;
+    for (std::size_t i = 0; i < selection.count; ++i)
+        some.push_back(picks[i * picks.size() / selection.count]);
+    return some;
+}
+
+ExportClip with_person(ExportClip clip, std::uint32_t person, const std::string& where) {
+    if (person == 0) return clip;
+    auto& motion = clip.motion;
+    if (person > motion.persons)
+        throw Error("{}: clip {} has {} person{}, no number {}", where, clip.name, motion.persons,
+                    motion.persons == 1 ? "" : "s", person);
+    const std::size_t body = std::size_t{motion.nodes} * motion.numbers;
+    std::vector<float> values;
+    values.reserve(motion.frames * body);
+    for (std::size_t t = 0; t < motion.frames; ++t) {
+        const float* from = motion.at(t, person - 1, 0);
+        values.insert(values.end(), from, from + body);
+    }
+    motion.values = std::move(values);
+    motion.persons = 1;
+    auto& lengths = clip.body.bone_length;
+    const auto joints = static_cast<std::ptrdiff_t>(clip.body.topology.joints());
+    const auto known = static_cast<std::ptrdiff_t>(lengths.size()) / joints;
+    if (known > 0) {
+        const auto from = lengths.begin() + (person <= known ? person - 1 : 0) * joints;
+        lengths = std::vector<float>(from, from + joints);
+    }
+    return clip;
+}
+
+}  // namespace actformer::ingest
