@@ -7,29 +7,15 @@
 #include "base/error.hpp"
 
 namespace actformer::ingest {
-namespace {
 
 namespace fs = std::filesystem;
-
-/// Limbs in a file that does not call them so may be something else.
-void check_limbs(const Motion& motion, const fs::path& path) {
-    if (has_unit_limbs(motion)) return;
-    throw Error(
-        "{}: '{}' holds no limb vectors, as their lengths are not 1; where they are joint positions, set the "
-        "file's "
-        "attribute representation to xyz, or make a dataset of them with actformer ingest motions",
-        path.string(), motion.name);
-}
-
-}  // namespace
 
 DescribedMotions::DescribedMotions(const fs::path& path, const fs::path& bones)
     : path_(path),
       bones_(bones.empty() ? std::nullopt : std::optional<Dataset>(bones)),
       file_(path, bones_ ? bones_->header().representation : Representation()) {
     const auto first = file_.read(file_.names()[0]);
-    if (file_.representation() == Representation::limb && !file_.tells_representation())
-        check_limbs(first, path);
+    file_.check_limbs();
     subjects_ = find_subjects();
     const auto nodes = subjects_.representation.nodes(subjects_.topology);
     if (nodes != first.nodes)

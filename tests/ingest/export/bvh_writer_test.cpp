@@ -14,14 +14,14 @@ namespace {
 
 using namespace actformer::test;
 
-BvhFile parsed(const std::string& text) {
+Recording parsed(const std::string& text) {
     const std::string padded = text + std::string(64, '\0');
     auto result = parse_bvh(std::string_view(padded).substr(0, text.size()));
     if (const auto* why = std::get_if<Rejection>(&result)) {
         ADD_FAILURE() << why->reason;
         return {};
     }
-    return std::get<BvhFile>(std::move(result));
+    return std::get<std::vector<Recording>>(std::move(result)).at(0);
 }
 
 constexpr double radians = 3.14159265358979323846 / 180;
@@ -34,7 +34,7 @@ Matrix about(int axis, double degrees) {
 }
 
 /// (frames, joints of the file) by the file's own channels, in the order of `tree`.
-std::vector<Point> places(const BvhFile& file, const Topology& tree) {
+std::vector<Point> places(const Recording& file, const Topology& tree) {
     std::vector<Point> out(file.frames * tree.joints());
     std::vector<Matrix> turned(file.joints.size());
     std::vector<Point> at(file.joints.size());

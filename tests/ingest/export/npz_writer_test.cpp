@@ -58,7 +58,7 @@ TEST(NpzWriter, SameArraysGiveSameBytes) {
     const TempDir dir;
     for (const char* name : {"a.npz", "b.npz"}) {
         NpzWriter writer(dir / name);
-        writer.add("names", {"x", "y"});
+        writer.add("names", std::vector<std::string>{"x", "y"});
         ASSERT_TRUE(writer.finish());
     }
     EXPECT_EQ(read_file(dir / "a.npz"), read_file(dir / "b.npz"));
@@ -66,7 +66,7 @@ TEST(NpzWriter, SameArraysGiveSameBytes) {
 
 TEST(NpzWriter, AFullDiskIsSeen) {
     NpzWriter writer("/dev/full");
-    writer.add("names", {"x", "y"});
+    writer.add("names", std::vector<std::string>{"x", "y"});
     EXPECT_FALSE(writer.finish());
 }
 
