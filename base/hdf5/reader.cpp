@@ -221,7 +221,8 @@ struct Reader::Attribute {
 };
 
 bool Reader::has_attribute(const std::string& name, const std::string& of) const {
-    return H5Aexists_by_name(file_.get(), of.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+    if (of == "/") return H5Aexists(file_.get(), name.c_str()) > 0;
+    return H5Aexists(open(of).set.get(), name.c_str()) > 0;  // open() refuses what lies in other files
 }
 
 Reader::Attribute Reader::open_attribute(const std::string& name, const std::string& of, H5T_class_t kind,
@@ -229,7 +230,7 @@ Reader::Attribute Reader::open_attribute(const std::string& name, const std::str
     const auto owner = of == "/" ? std::string() : fmt::format("'{}' ", of);
     if (!has_attribute(name, of)) fail("{}has no attribute '{}'", owner, name);
     Attribute attribute{
-        Handle(H5Aopen_by_name(file_.get(), of.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose),
+        Handle(H5Aopen(of == "/" ? file_.get() : open(of).set.get(), name.c_str(), H5P_DEFAULT), H5Aclose),
         {},
         0,
         of == "/" ? fmt::format("attribute '{}'", name) : fmt::format("attribute '{}' of '{}'", name, of)};

@@ -18,6 +18,18 @@ std::string public_name(const std::string& name, std::uint32_t label) {
     return fmt::format("{}{:03}", name.substr(0, numbered + 1), label + 1);
 }
 
+MotionDetails read_details(const hdf5::Reader& file, const std::string& name, const std::string& where) {
+    MotionDetails details;
+    if (file.has_attribute("label", name)) {
+        const auto label = file.attribute_numbers("label", name);
+        if (label.size() != 1 || label[0] < 0 || label[0] > std::numeric_limits<std::int32_t>::max())
+            throw Error("{}: '{}' has a label that is no number from 0", where, name);
+        details.label = static_cast<std::uint32_t>(label[0]);
+    }
+    if (file.has_attribute("bone_length", name)) details.bone_length = file.attribute_floats("bone_length", name);
+    return details;
+}
+
 struct MotionsFile::Handle {
     hdf5::Reader reader;
 };
@@ -66,16 +78,7 @@ void MotionsFile::check_limbs() const {
 }
 
 MotionDetails MotionsFile::details(const std::string& name) const {
-    MotionDetails details;
-    if (file_->reader.has_attribute("label", name)) {
-        const auto label = file_->reader.attribute_numbers("label", name);
-        if (label.size() != 1 || label[0] < 0 || label[0] > std::numeric_limits<std::int32_t>::max())
-            throw Error("{}: '{}' has a label that is no number from 0", path_.string(), name);
-        details.label = static_cast<std::uint32_t>(label[0]);
-    }
-    if (file_->reader.has_attribute("bone_length", name))
-        details.bone_length = file_->reader.attribute_floats("bone_length", name);
-    return details;
+    return read_details(file_->reader, name, path_.string());
 }
 
 struct MotionsWriter::Handle {

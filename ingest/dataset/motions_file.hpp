@@ -23,6 +23,9 @@ struct MotionDetails {
     std::vector<float> bone_length;      ///< (persons, joints) metres; empty: as of all motions in the file
 };
 
+/// The attributes `label` and `bone_length` of the array `name`. Throws Error, beginning with `where`, for a label that is none.
+MotionDetails read_details(const hdf5::Reader& file, const std::string& name, const std::string& where);
+
 /// Reads motions one at a time. Throws Error for a file that is not in the public layout.
 class MotionsFile {
   public:
@@ -34,7 +37,7 @@ class MotionsFile {
     const std::vector<std::string>& names() const { return names_; }  ///< sorted
     Motion read(const std::string& name) const;
 
-    /// The attributes `label` and `bone_length` of a motion.
+    /// As read_details.
     MotionDetails details(const std::string& name) const;
 
     Representation representation() const { return representation_; }

@@ -1,30 +1,14 @@
 #include "ingest/export/selection.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <unordered_set>
 
 #include "base/error.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/dataset/classes.hpp"
 
 namespace actformer::ingest {
 namespace {
-
-/// The label that a name or a number from 1 stands for.
-std::uint32_t label_called(const std::string& text, const ClipSource& source) {
-    const auto& classes = source.subjects().classes;
-    if (const auto found = std::ranges::find(classes, text); found != classes.end())
-        return static_cast<std::uint32_t>(found - classes.begin());
-    std::uint32_t number = 0;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool whole = error == std::errc() && rest == text.data() + text.size();
-    if (whole && number >= 1 && (classes.empty() || number <= classes.size())) return number - 1;
-    if (classes.empty())
-        throw Error("{}: no class {}; its classes have no names: give a number from 1",
-                    source.path().string(), in_quotes(text));
-    throw Error("{}: no class {}; give a name or a number from 1 ('{}') to {} ('{}')", source.path().string(),
-                in_quotes(text), classes.front(), classes.size(), classes.back());
-}
 
 void keep_named(std::vector<std::size_t>& picks, const ClipSource& source, const Selection& selection) {
     std::unordered_set<std::string> wanted(selection.clips.begin(), selection.clips.end());
@@ -52,7 +36,7 @@ std::vector<std::size_t> selected(const ClipSource& source, const Selection& sel
     auto picks = source.split(selection.split);
     if (!selection.clips.empty() && !source.clips().empty()) keep_named(picks, source, selection);
     if (!selection.label.empty()) {
-        const auto label = label_called(selection.label, source);
+        const auto label = label_called(selection.label, source.subjects().classes, source.path().string());
         std::erase_if(picks, [&](std::size_t i) { return source.clips()[i].label != label; });
     }
     if (picks.empty())

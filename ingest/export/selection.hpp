@@ -12,7 +12,7 @@ namespace actformer::ingest {
 struct Selection {
     std::string split = "all";
     std::vector<std::string> clips;  ///< by name; empty: any
-    std::string label;               ///< a class by its name or its number from 1; empty: any
+    std::string label;               ///< a class, as label_called takes it; empty: any
     std::size_t count = 0;           ///< so many of these, evenly spaced; 0: all
     std::uint32_t person = 0;        ///< from 1; 0: all
 };

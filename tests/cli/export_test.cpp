@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/motions_file.hpp"
 #include "ingest/export/fit_name.hpp"
 #include "ingest/export/skeletons.hpp"
 #include "tests/support/command.hpp"
@@ -114,6 +115,26 @@ TEST_F(Export, BvhComesBackThroughIngest) {
         const auto want = centred(*before, 0, p, topology), got = centred(*after, p, 0, topology);
         ASSERT_EQ(got.size(), want.size());
         for (std::size_t i = 0; i < want.size(); ++i) EXPECT_LT(distance(got[i], want[i]), 1e-5) << i;
+    }
+}
+
+TEST_F(Export, PublicLayoutComesBackAsTheSameDataset) {
+    for (const auto& folder : {toy_pairs(), toy()}) {
+        const ingest::Dataset before(folder);
+        ASSERT_EQ(run_actformer("export " + folder.string() + " -o " + at("all.h5")).exit, 0);
+        const auto result = run_actformer("ingest motions " + at("all.h5") + " -o " + at("back"));
+        ASSERT_EQ(result.exit, 0) << result.output;
+        const ingest::Dataset after(dir / "back");
+        ASSERT_EQ(after.clips().size(), before.clips().size());
+        for (std::size_t i = 0; i < before.clips().size(); ++i) {
+            const auto& clip_before = before.clips()[i];
+            const auto found = after.find(ingest::public_name(clip_before.name, clip_before.label));
+            ASSERT_TRUE(found) << clip_before.name;
+            EXPECT_EQ(after.motion(*found).values, before.motion(i).values);
+            EXPECT_EQ(after.bone_length(*found), before.bone_length(i));
+            EXPECT_EQ(after.header().classes[after.clips()[*found].label], before.header().classes[clip_before.label]);
+        }
+        fs::remove_all(dir / "back");
     }
 }
 

@@ -167,7 +167,7 @@ class Look {
                 continue;
             }
             if (std::exchange(first, false)) out_.representation = told.value_or(usual(shape));
-            add_stored(key, shape);
+            add_stored(key, shape, read_details(file, key, path).label);
         }
     }
 
@@ -182,7 +182,7 @@ class Look {
         return rotations ? Representation::rot6d : Representation::limb;
     }
 
-    void add_stored(const std::string& key, const hdf5::Shape& shape) {
+    void add_stored(const std::string& key, const hdf5::Shape& shape, std::optional<std::uint32_t> label) {
         const auto numbers = out_.representation.numbers(), nodes = out_.representation.nodes(topology());
         if (shape.size() != 3 || shape[0] == 0 || shape[0] % numbers != 0 || shape[1] != nodes ||
             shape[2] == 0) {
@@ -191,7 +191,10 @@ class Look {
                                  fmt::join(shape, ", "), out_.representation.name(), numbers, nodes));
             return;
         }
-        out_.motions.push_back({key, 1, false, static_cast<std::uint32_t>(shape[0] / numbers), true, {}});
+        std::vector<std::int64_t> labels;
+        if (label) labels.push_back(*label);
+        out_.motions.push_back(
+            {key, 1, false, static_cast<std::uint32_t>(shape[0] / numbers), true, std::move(labels)});
     }
 
     const RawText& raw_;

@@ -454,13 +454,14 @@ class MotionsFormat::FileReader {
         motion.values.erase(motion.values.begin(),
                             motion.values.begin() + static_cast<std::ptrdiff_t>(start * row));
         out->values = std::move(motion.values);
-        out->bone_length = lengths();
+        out->bone_length = lengths(file.details(found.key).bone_length);
         return out;
     }
 
-    /// The file's, else usual ones.
-    std::vector<float> lengths() const {
+    /// The motion's own, else the file's, else usual ones.
+    std::vector<float> lengths(std::vector<float> own) const {
         const auto joints = header_.topology.joints(), wanted = header_.persons * joints;
+        if (own.size() == wanted) return own;
         if (file_.bone_length.size() == wanted) return file_.bone_length;
         const auto usual =
             header_.rest.empty() ? usual_bone_lengths(header_.topology) : lengths_of(header_.rest);
