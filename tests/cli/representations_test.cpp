@@ -31,7 +31,7 @@ struct Chain {
         write_file(dir / "recogniser.yaml",
                    configuration("recogniser",
                                  "test_split: s/test\nwidth: 0.25\nbatch: 12\nepochs: "
-                                 "12\nrate_drops: [10]\n"));
+                                 "30\nrate_drops: [24]\n"));
         write_file(dir / "generator.yaml",
                    configuration("generator",
                                  "width: 16\nheads: 2\ndepth: 1\nlatent: 8\nd_width: 4\nbatch: "
@@ -93,7 +93,8 @@ void expect_finished(const ingest::Motion& motion, Representation how) {
             } else if (how == Representation::rot6d) {
                 ASSERT_NEAR(length(x), 1, 1e-5);  // float32 through one division
                 ASSERT_NEAR(length(x + 3), 1, 1e-5);
-                ASSERT_NEAR(x[0] * x[3] + x[1] * x[4] + x[2] * x[5], 0, 1e-5);
+                // Rounding grows by the inverse sine of the raw rows' angle, which is small now and then.
+                ASSERT_NEAR(x[0] * x[3] + x[1] * x[4] + x[2] * x[5], 0, 1e-3);
             }
         }
 }
