@@ -37,7 +37,8 @@ struct CleanedBatch {
     std::span<const float>
         motion;  ///< (total frames, P, K, 3): unit limbs, and the re-centred root in metres
     std::vector<float> bone_length;  ///< (clips, P, K) metres, the mean over frames; 0 for the root
-    std::shared_ptr<const void> memory;  ///< keeps what `motion` lies in: as large as it is, it is not copied from there
+    std::shared_ptr<const void>
+        memory;  ///< keeps what `motion` lies in: as large as it is, it is not copied from there
 };
 
 /// Limbs of every frame on the device: values (total frames, P, pitch), the K*3 numbers of a body first; what follows them

@@ -155,7 +155,8 @@ void Writer::attribute_from(const std::string& name, const std::string& of, hid_
                                    H5Aclose, "adding an attribute");
     H5Awrite(attribute.get(), type, value);
     const auto bytes = std::accumulate(shape.begin(), shape.end(), H5Tget_size(type), std::multiplies<>());
-    contents_.add_attribute(of == "/" ? std::string() : of, name, type, shape, {static_cast<const char*>(value), bytes});
+    contents_.add_attribute(of == "/" ? std::string() : of, name, type, shape,
+                            {static_cast<const char*>(value), bytes});
 }
 
 void Writer::attribute(const std::string& name, const std::string& value, const std::string& of) {

@@ -1,6 +1,6 @@
 // The Frechet distance of the Gaussians fitted to two sets of samples, exact with fewer samples than dimensions too:
 //
-//   d2(X, Y) = |mean X - mean Y|^2 + tr Cx + tr Cy - 2 |X0 Y0^T|_* / sqrt((n - 1)(m - 1))        
+//   d2(X, Y) = |mean X - mean Y|^2 + tr Cx + tr Cy - 2 |X0 Y0^T|_* / sqrt((n - 1)(m - 1))
 //
 // with X0 (n, d) and Y0 (m, d) the centred samples, Cx and Cy their covariances over n - 1 and m - 1, and |.|_* the nuclear
 // norm, the sum of the singular values. No covariance is multiplied and no matrix root taken, so singular ones do no harm.

@@ -26,7 +26,8 @@ MotionDetails read_details(const hdf5::Reader& file, const std::string& name, co
             throw Error("{}: '{}' has a label that is no number from 0", where, name);
         details.label = static_cast<std::uint32_t>(label[0]);
     }
-    if (file.has_attribute("bone_length", name)) details.bone_length = file.attribute_floats("bone_length", name);
+    if (file.has_attribute("bone_length", name))
+        details.bone_length = file.attribute_floats("bone_length", name);
     return details;
 }
 

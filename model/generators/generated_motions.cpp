@@ -53,7 +53,7 @@ class GeneratedMotions final : public eval::MotionSource {
     std::vector<std::uint64_t> rows_;  ///< (labels, per_class) of each motion as it is made
     std::size_t class_ = 0;            ///< of the next batch, among Loaded::labels
     std::uint32_t first_ = 0;          ///< of the next batch, within its class
-    std::vector<float> values_;  ///< of the last batch
+    std::vector<float> values_;        ///< of the last batch
 };
 
 /// Rows follow the names in the order in which a file has them: A001_10 before A001_2.
@@ -104,7 +104,12 @@ eval::MotionBatch GeneratedMotions::next() try {
 }
 
 Loaded load(const eval::GeneratedRequest& request) {
-    Loaded loaded{load_generator(request.generator), {}, request.labels, request.per_class, 0, request.frames,
+    Loaded loaded{load_generator(request.generator),
+                  {},
+                  request.labels,
+                  request.per_class,
+                  0,
+                  request.frames,
                   request.generator};
     loaded.maker = loaded.file.maker(request.device.empty() ? "cpu" : request.device);
     const auto classes = loaded.file.subjects.classes.size();

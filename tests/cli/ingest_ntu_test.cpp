@@ -124,7 +124,8 @@ TEST_F(IngestNtu, RenumbersAndLabelsBothFamilies) {
         const auto found = dataset.find("S001C001P001R001" + action);
         ASSERT_TRUE(found) << action;
         const auto& clip = dataset.clips()[*found];
-        EXPECT_EQ(actformer::ingest::public_name(clip.name, clip.label), "S001C001P001R001" + renumbered.first);
+        EXPECT_EQ(actformer::ingest::public_name(clip.name, clip.label),
+                  "S001C001P001R001" + renumbered.first);
         EXPECT_EQ(clip.label + 1, std::stoul(renumbered.first.substr(1)));
     }
     EXPECT_EQ(Dataset(fs::path(out()) / "ntu-1p").header().classes.size(), 94U);

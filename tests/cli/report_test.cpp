@@ -60,10 +60,12 @@ struct Swept {
             "rows:\n"
             "  full: {{fills: [table1/ActFormer/NTU-1P, table3/full/NTU-1P]}}\n"
             "  \"</script><script>window.hostile = 1</script>\": {{fills: [table3/fixed PE/NTU-1P]}}\n"
-            "  pairs: {{data: two, recogniser: two persons, single_recogniser: one person, motions: [{4}], fills: "
+            "  pairs: {{data: two, recogniser: two persons, single_recogniser: one person, motions: [{4}], "
+            "fills: "
             "[table2/ActFormer/NTU-2P]}}\n"
             "  lost: {{motions: [nowhere.h5], fills: [table3/Gaussian prior/NTU-1P]}}\n",
-            at("data"), at("ntu-1p-recogniser.h5"), at("ntu-2p-recogniser.h5"), at("ntu-1p.h5"), at("ntu-2p.h5"));
+            at("data"), at("ntu-1p-recogniser.h5"), at("ntu-2p-recogniser.h5"), at("ntu-1p.h5"),
+            at("ntu-2p.h5"));
     }
 };
 

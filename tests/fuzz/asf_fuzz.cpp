@@ -29,7 +29,8 @@ void check_refused(const ingest::Rejection& rejection) {
 }
 
 void check_taken(const ingest::Recording& recording, const ingest::AsfSkeleton& skeleton) {
-    require(recording.frames > 0 && recording.values.size() == std::size_t{recording.channels} * recording.frames);
+    require(recording.frames > 0 &&
+            recording.values.size() == std::size_t{recording.channels} * recording.frames);
     for (const float v : recording.values) require(std::isfinite(v));
     const auto kept = ingest::skeleton_below(recording, 0, true);
     kept.topology.check("fuzz");
@@ -42,7 +43,8 @@ void check_taken(const ingest::Recording& recording, const ingest::AsfSkeleton& 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     const std::string bytes(data, data + size);
     const auto cut = std::min(bytes.find('\x1E'), bytes.size());
-    const auto asf = padded(bytes.substr(0, cut)), amc = padded(bytes.substr(std::min(cut + 1, bytes.size())));
+    const auto asf = padded(bytes.substr(0, cut)),
+               amc = padded(bytes.substr(std::min(cut + 1, bytes.size())));
     const auto skeleton = ingest::parse_asf({asf.data(), asf.size() - 64});
     if (const auto* rejection = std::get_if<ingest::Rejection>(&skeleton)) {
         check_refused(*rejection);

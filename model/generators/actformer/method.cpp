@@ -18,11 +18,13 @@ std::vector<Key> keys() {
 }
 
 GeneratorSettings generator_of(const Config& config, const MotionSpec& spec) {
-    return generator_settings(config, spec.representation, spec.topology, spec.persons, spec.classes, spec.where);
+    return generator_settings(config, spec.representation, spec.topology, spec.persons, spec.classes,
+                              spec.where);
 }
 
 DiscriminatorSettings discriminator_of(const Config& config, const MotionSpec& spec) {
-    return discriminator_settings(config, spec.representation, spec.topology, spec.persons, spec.classes, spec.where);
+    return discriminator_settings(config, spec.representation, spec.topology, spec.persons, spec.classes,
+                                  spec.where);
 }
 
 std::vector<NetworkSummary> networks(const Config& config, const MotionSpec& spec) {
