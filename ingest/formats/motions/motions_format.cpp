@@ -181,12 +181,14 @@ void MotionsFormat::settle_header() {
     std::map<std::uint32_t, std::uint64_t> persons;
     std::map<std::string, std::uint64_t> stored;
     std::map<double, std::uint64_t> rates;
-    for (const auto& [index, file] : files_)
+    for (const auto& entry : files_) {
+        const auto& file = entry.second;
         file.for_each_clip([&](const FoundMotion& motion, std::uint64_t) {
             ++persons[motion.persons];
             if (motion.stored) ++stored[file.representation.name()];
             if (file.fps) ++rates[*file.fps];
         });
+    }
     DatasetHeader header;
     header.name = options_.dataset;
     header.topology = *arrays_.topology;

@@ -91,9 +91,9 @@ TEST_F(HostileFile, RowsPastTheEndAreRefused) {
     const hdf5::Reader file(path);
     EXPECT_EQ(file.read_rows("motion", 4240, 1), (std::vector<float>{1.5F, 1.5F, 1.5F}));
     EXPECT_EQ(file.read_rows("motion", 4241, 0), std::vector<float>{});
-    for (const auto& [first, count] :
+    for (const auto& rows :
          {std::pair<std::uint64_t, std::uint64_t>{4240, 2}, {4242, 0}, {1, ~std::uint64_t{0}}})
-        EXPECT_NE(refusal([&] { file.read_rows("motion", first, count); }).find("has no rows"),
+        EXPECT_NE(refusal([&] { file.read_rows("motion", rows.first, rows.second); }).find("has no rows"),
                   std::string::npos);
 }
 
