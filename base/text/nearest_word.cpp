@@ -29,6 +29,7 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
         const bool part = word.size() > 2 && (candidate.find(word) != std::string::npos ||
                                               word.find(candidate) != std::string::npos);
         const auto distance = part ? std::size_t{1} : edit_distance(word, candidate);
+        if (distance >= std::max(word.size(), candidate.size())) continue;  // not a letter in its place
         if (distance < fewest || (distance == fewest && best.empty())) {
             best = candidate;
             fewest = distance;

@@ -32,7 +32,7 @@ void check(const Rejection& why) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     // In an allocation of just the promised size, so that the sanitizer sees any byte read beyond it.
-    const auto text = std::make_unique<char[]>(size + text_padding);
+    const auto text = std::make_unique<char[]>(size + actformer::text_padding);
     std::memcpy(text.get(), data, size);
     std::visit([](const auto& result) { check(result); }, read_skeleton({text.get(), size}));
     return 0;

@@ -43,7 +43,7 @@ double first_window_mean(const std::string& options) {
 
 }  // namespace
 
-TEST(Views, AreCentredWhereTheDatasetSaysSo) {
+TEST(ViewsOnDevice, AreCentredWhereTheDatasetSaysSo) {
     // 120 frames of 2 cm about their mean, 1.19 m: the first 60 lie 0.6 m behind it on average
     EXPECT_NEAR(first_window_mean(""), -0.6, 1e-5);
     EXPECT_NEAR(first_window_mean("--centre-windows"), 0, 1e-6);
