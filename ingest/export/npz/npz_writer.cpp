@@ -34,10 +34,10 @@ std::u32string code_points(const std::string& text) {
         const unsigned lead_bits = byte >= 0xF0 ? 0x07 : byte >= 0xE0 ? 0x0F : 0x1F;
         if (byte < 0x80)
             out += byte;
-        else if (byte < 0xC0)
+        else if (byte < 0xC0 && !out.empty())
             out.back() = out.back() << 6 | (byte & 0x3FU);
         else
-            out += byte & lead_bits;
+            out += static_cast<char32_t>(byte & lead_bits);
     }
     return out;
 }
