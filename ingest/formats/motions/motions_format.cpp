@@ -55,7 +55,8 @@ void check(const MotionsOptions& options) {
         throw Error("{} frames a second; give 1 to 1000, or 0 for as the files say", options.fps);
     if (options.persons > 100) throw Error("{} persons in a clip; give 1 to 100", options.persons);
     if (!up_named(options.up)) throw Error("up {}: give y, z, x, -y, -z or -x", in_quotes(options.up));
-    if (options.representation != "" && options.representation != "limb" && options.representation != "xyz")
+    if (!options.representation.empty() && options.representation != "limb" &&
+        options.representation != "xyz")
         throw Error("joint positions become limb or xyz, not {}", in_quotes(options.representation));
     check_axes(options.axes);
 }
