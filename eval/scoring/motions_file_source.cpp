@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
+#include "ingest/dataset/described_motions.hpp"
 #include "ingest/dataset/subjects.hpp"
 
 namespace actformer::eval {
@@ -92,7 +92,7 @@ void MotionsFileSource::describe() {
 std::vector<std::uint32_t> MotionsFileSource::labels() const {
     std::vector<std::uint32_t> labels;
     for (const auto& name : info_.names) {
-        auto label = label_in(name);
+        auto label = ingest::label_in(name);
         if (!options_.labels.empty()) {
             const auto given = options_.labels.find(name);
             if (given == options_.labels.end())
@@ -152,19 +152,6 @@ MotionSet motions_in(const fs::path& file, const MotionsFileOptions& options) {
         key += "|labels " + labels.hex();
     }
     return {file.string(), key, {}, [file, options] { return open_motions(file, options); }};
-}
-
-std::optional<std::uint32_t> label_in(const std::string& name) {
-    const auto at = name.rfind('A');
-    if (at == std::string::npos) return {};
-    std::uint32_t action = 0;
-    const char *begin = name.data() + at + 1, *end = name.data() + name.size();
-    const auto [rest, error] = std::from_chars(begin, end, action);
-    if (error != std::errc() || rest - begin < 3 || action == 0) return {};
-    if (rest == end) return action - 1;  // S001C001P001R001A001
-    if (at != 0 || *rest != '_' || rest + 1 == end) return {};
-    if (!std::all_of(rest + 1, end, [](char c) { return c >= '0' && c <= '9'; })) return {};
-    return action - 1;  // A001_7
 }
 
 }  // namespace actformer::eval

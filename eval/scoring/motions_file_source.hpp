@@ -28,7 +28,4 @@ std::unique_ptr<MotionSource> open_motions(const std::filesystem::path& file,
 /// Motions in a file; the set's key is the file's checksum with the options. Throws Error where it cannot be read.
 MotionSet motions_in(const std::filesystem::path& file, const MotionsFileOptions& options);
 
-/// The label that a motion's name tells: 0 for A001_7.
-std::optional<std::uint32_t> label_in(const std::string& name);
-
 }  // namespace actformer::eval

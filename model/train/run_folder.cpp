@@ -1,9 +1,5 @@
 #include "model/train/run_folder.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -16,17 +12,11 @@ namespace actformer::model {
 RunFolder::RunFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
     std::error_code error;
     std::filesystem::create_directories(folder_, error);
-    if (!error) lock_ = ::open((folder_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (lock_ < 0)
-        throw Error("{}: the folder cannot be made or written: {}", folder_.string(),
-                    error ? error.message() : std::strerror(errno));
-    if (::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
-    ::close(lock_);
-    throw Error("{}: another training is writing there; wait for it, or choose another -o", folder_.string());
-}
-
-RunFolder::~RunFolder() {
-    if (lock_ >= 0) ::close(lock_);
+    if (error) throw Error("{}: the folder cannot be made or written: {}", folder_.string(), error.message());
+    lock_ = FileLock::if_free(folder_ / "lock");
+    if (!lock_)
+        throw Error("{}: another training is writing there; wait for it, or choose another -o",
+                    folder_.string());
 }
 
 void RunFolder::keep_to(const Config& config) const {

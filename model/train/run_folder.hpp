@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "base/files/lock.hpp"
 #include "model/train/config.hpp"
 
 namespace actformer::model {
@@ -14,9 +16,6 @@ class RunFolder {
   public:
     /// Opens or makes `folder`. Throws Error where it cannot be made, or another process trains there.
     explicit RunFolder(std::filesystem::path folder);
-    ~RunFolder();
-    RunFolder(const RunFolder&) = delete;
-    RunFolder& operator=(const RunFolder&) = delete;
 
     const std::filesystem::path& path() const { return folder_; }
     std::filesystem::path config() const { return folder_ / "config.yaml"; }
@@ -33,7 +32,7 @@ class RunFolder {
 
   private:
     std::filesystem::path folder_;
-    int lock_ = -1;
+    std::optional<FileLock> lock_;
 };
 
 }  // namespace actformer::model

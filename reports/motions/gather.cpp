@@ -9,7 +9,7 @@
 #include "base/files/file.hpp"
 #include "ingest/dataset/classes.hpp"
 #include "ingest/dataset/dataset.hpp"
-#include "ingest/dataset/motions_file.hpp"
+#include "ingest/dataset/described_motions.hpp"
 #include "ingest/formats/ntu/skeleton_file.hpp"
 
 namespace actformer::reports {
@@ -147,61 +147,9 @@ std::vector<JointMotion> motions_of_datasets(const fs::path& path, const Wanted&
     return motions;
 }
 
-/// A motions file and what it is drawn with; the dataset that told it, if one did.
-struct Drawn {
-    std::optional<ingest::Dataset> dataset;
-    ingest::MotionsFile file;
-    ingest::Subjects subjects;
-};
-
-/// From --bones where it is given, else from the file itself, else NTU's skeleton; usual lengths where none are known.
-ingest::Subjects subjects_for(const Drawn& drawn, const fs::path& path) {
-    const auto how = drawn.file.representation();
-    if (drawn.dataset) {
-        if (const auto& header = drawn.dataset->header(); header.representation != how)
-            throw Error("{} has motions in {}, and {} is in {}; give the --bones it was trained on",
-                        path.string(), how.name(), drawn.dataset->folder().string(),
-                        header.representation.name());
-        return ingest::subjects_of(*drawn.dataset);
-    }
-    ingest::Subjects subjects;
-    if (drawn.file.subjects()) {
-        subjects = *drawn.file.subjects();
-    } else {
-        subjects.representation = how;
-        subjects.topology = ingest::ntu25();
-        const auto nodes = drawn.file.read(drawn.file.names()[0]).nodes;
-        if (how == ingest::Representation::rot6d || nodes != subjects.topology.joints())
-            throw Error(
-                "{} does not say how its {} nodes hang together; give --bones DATASET with the same skeleton",
-                path.string(), nodes);
-    }
-    if (subjects.bone_length.empty()) subjects.bone_length = usual_bone_lengths(subjects.topology);
-    return subjects;
-}
-
-Drawn drawn_from(const fs::path& path, const Wanted& wanted) {
-    std::optional<ingest::Dataset> dataset;
-    if (!wanted.bones.empty()) dataset.emplace(wanted.bones);
-    ingest::MotionsFile file(path, dataset ? dataset->header().representation
-                                           : ingest::Representation(ingest::Representation::limb));
-    Drawn drawn{std::move(dataset), std::move(file), {}};
-    const auto first = drawn.file.read(drawn.file.names()[0]);
-    drawn.file.check_limbs();
-    drawn.subjects = subjects_for(drawn, path);
-    const auto wanted_nodes = drawn.subjects.representation.nodes(drawn.subjects.topology);
-    if (wanted_nodes != first.nodes)
-        throw Error("{} has motions of {} nodes, and {} says {}; give the --bones it was trained on",
-                    path.string(), first.nodes, drawn.dataset ? wanted.bones.string() : path.string(),
-                    wanted_nodes);
-    return drawn;
-}
-
-/// The class of a motion in the public layout: the clip's own in --bones, else what follows A in its name,
-/// counted from 1.
-std::optional<std::uint32_t> label_of(const std::string& name, const Drawn& drawn) {
-    if (drawn.dataset)
-        if (const auto clip = drawn.dataset->find(name)) return drawn.dataset->clips()[*clip].label;
+/// The class of a motion: as the file or --bones tell it, else what follows A in any name, counted from 1.
+std::optional<std::uint32_t> label_of(const std::string& name, const ingest::DescribedMotions& file) {
+    if (const auto label = file.label(name)) return label;
     const auto at = name.rfind('A');
     if (at == std::string::npos) return {};
     const auto digits = name.substr(at + 1, name.find_first_not_of("0123456789", at + 1) - at - 1);
@@ -212,9 +160,9 @@ std::optional<std::uint32_t> label_of(const std::string& name, const Drawn& draw
 std::vector<JointMotion> motions_of_motions(const fs::path& path, const Wanted& wanted) {
     if (wanted.split != "all")
         throw Error("{} is a motions file and has no splits; leave --split out", path.string());
-    const auto drawn = drawn_from(path, wanted);
-    const auto& names = drawn.file.names();
-    const auto& subjects = drawn.subjects;
+    const ingest::DescribedMotions file(path, wanted.bones);
+    const auto& names = file.motions().names();
+    const auto& subjects = file.subjects();
 
     std::vector<std::size_t> picks;
     for (const auto& name : wanted.clips) {
@@ -226,14 +174,14 @@ std::vector<JointMotion> motions_of_motions(const fs::path& path, const Wanted& 
     }
     if (wanted.clips.empty()) {
         std::vector<Candidate> candidates;
-        for (std::size_t i = 0; i < names.size(); ++i) candidates.push_back({i, label_of(names[i], drawn)});
+        for (std::size_t i = 0; i < names.size(); ++i) candidates.push_back({i, label_of(names[i], file)});
         picks = chosen(of_class(std::move(candidates), wanted, subjects.classes, path.string()), wanted,
                        wanted.count);
     }
     std::vector<JointMotion> motions;
     for (const auto i : picks) {
-        const auto motion = drawn.file.read(names[i]);
-        const auto label = label_of(names[i], drawn);
+        const auto motion = file.motions().read(names[i]);
+        const auto label = label_of(names[i], file);
         motions.push_back(
             joint_motion(motion, subjects, subjects.fps, title_of(names[i], label, subjects.classes)));
         motions.back().label = label;

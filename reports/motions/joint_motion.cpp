@@ -1,7 +1,6 @@
 #include "reports/motions/joint_motion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -84,17 +83,6 @@ JointMotion joint_motion(const ingest::SkeletonFile& file, std::string title) {
     }
     check(out);
     return out;
-}
-
-std::vector<float> usual_bone_lengths(const ingest::Topology& topology) {
-    // Round motions for a standing adult of about 1.7 m as a depth camera sees one, in ntu25()'s order.
-    static constexpr std::array<float, 25> adult{
-        0,     0.29F, 0.08F, 0.14F, 0.17F, 0.26F, 0.23F, 0.07F, 0.17F, 0.26F, 0.23F, 0.07F, 0.08F,
-        0.38F, 0.38F, 0.11F, 0.08F, 0.38F, 0.38F, 0.11F, 0.22F, 0.07F, 0.06F, 0.07F, 0.06F};
-    if (topology.parents == ingest::ntu25().parents) return {adult.begin(), adult.end()};
-    std::vector<float> lengths(topology.joints(), 0.2F);
-    if (!lengths.empty()) lengths[0] = 0;
-    return lengths;
 }
 
 }  // namespace actformer::reports

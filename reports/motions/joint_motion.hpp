@@ -45,8 +45,4 @@ JointMotion joint_motion(const ingest::Motion& motion, const ingest::BodyModel& 
 /// A raw capture, every body in it a person that is seen in some frames. Throws Error as check() does.
 JointMotion joint_motion(const ingest::SkeletonFile& file, std::string title);
 
-/// (K) lengths in metres to draw a body whose own are unknown: an adult's for NTU's 25 joints, else 0.2 each;
-/// the root's is 0.
-std::vector<float> usual_bone_lengths(const ingest::Topology& topology);
-
 }  // namespace actformer::reports

@@ -1,11 +1,8 @@
 #include "reports/sweep/results.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/lock.hpp"
 #include "base/text/loose_json.hpp"
 
 namespace actformer::reports {
@@ -14,22 +11,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Whether some process works on the job: it holds the lock then.
-bool is_locked(const fs::path& lock) {
-    const int file = ::open(lock.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) return false;
-    const bool locked = ::flock(file, LOCK_SH | LOCK_NB) != 0;
-    ::close(file);
-    return locked;
-}
-
 JobStatus status_of(const fs::path& folder) {
     JobStatus out;
     if (fs::exists(folder / "done.json")) {
         out.state = JobState::done;
         const auto json = loose::read(folder / "done.json");
         if (const auto& seconds = loose::member(json, "seconds"); seconds.is_number()) out.seconds = seconds;
-    } else if (is_locked(folder / "lock")) {
+    } else if (FileLock::is_held(folder / "lock")) {  // by the process that works on the job
         out.state = JobState::running;
     } else if (fs::exists(folder / "failed.json")) {
         out.state = JobState::failed;
@@ -125,11 +113,9 @@ nlohmann::ordered_json results(const Sweep& sweep, const Plan& plan, const fs::p
 }
 
 void write_results(const Sweep& sweep, const Plan& plan, const fs::path& out) {
-    const int lock = ::open((out / "results.lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
-    if (lock >= 0) ::flock(lock, LOCK_EX);
+    const FileLock lock(out / "results.lock");
     const auto text = results(sweep, plan, out).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     write_whole(out / "results.json", text);
-    if (lock >= 0) ::close(lock);
 }
 
 std::optional<double> estimate(const Plan& plan, const std::vector<JobStatus>& status, std::size_t job) {

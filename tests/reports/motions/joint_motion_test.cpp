@@ -85,11 +85,11 @@ TEST(JointMotion, ComesFromLimbs) {
 }
 
 TEST(JointMotion, UsualLengthsFitTheSkeleton) {
-    const auto adult = usual_bone_lengths(ingest::ntu25());
+    const auto adult = ingest::usual_bone_lengths(ingest::ntu25());
     ASSERT_EQ(adult.size(), 25U);
     EXPECT_FLOAT_EQ(adult[5], adult[9]);  // both sides alike
     EXPECT_GT(adult[13], adult[6]);       // thighs are longer than forearms
-    EXPECT_EQ(usual_bone_lengths({{"a", "b", "c"}, {-1, 0, 1}}), (std::vector<float>{0, 0.2F, 0.2F}));
+    EXPECT_EQ(ingest::usual_bone_lengths({{"a", "b", "c"}, {-1, 0, 1}}), (std::vector<float>{0, 0.2F, 0.2F}));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "ingest/dataset/described_motions.hpp"
 #include "reports/motions/joint_motion.hpp"
 
 namespace actformer::reports::testing {
@@ -18,7 +19,7 @@ namespace actformer::reports::testing {
 /// arms and legs.
 inline JointMotion walkers(std::uint32_t persons, std::uint32_t frames, double fps = 30) {
     JointMotion motion{"walk · S001C001P001R001A001", ingest::ntu25(), persons, frames, fps, {}, {}, {}};
-    const auto lengths = usual_bone_lengths(motion.topology);
+    const auto lengths = ingest::usual_bone_lengths(motion.topology);
     for (std::uint32_t t = 0; t < frames; ++t)
         for (std::uint32_t p = 0; p < persons; ++p) {
             const double swing = 0.6 * std::sin(0.25 * t + p);
