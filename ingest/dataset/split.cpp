@@ -56,4 +56,15 @@ Split parse_split(const std::string& text) {
     return split;
 }
 
+std::string to_text(const std::vector<Split>& splits) {
+    std::string text;
+    for (const auto& split : splits) {
+        text += fmt::format(" [{}", split.name);
+        for (const auto& c : split.conditions)
+            text += fmt::format(" {}{}:{}", c.field, c.negated ? "!" : "", fmt::join(c.values, ","));
+        text += "]";
+    }
+    return text;
+}
+
 }  // namespace actformer::ingest

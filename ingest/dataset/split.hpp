@@ -25,4 +25,7 @@ struct Split {
 /// Throws Error showing this form.
 Split parse_split(const std::string& text);
 
+/// As settings record them: " [xstyle/train style:active,normal]" for each.
+std::string to_text(const std::vector<Split>& splits);
+
 }  // namespace actformer::ingest

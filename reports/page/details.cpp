@@ -66,7 +66,7 @@ Classes classes_of(const Json& scored) {
 struct Shown {
     std::string heading, unit;
     double scale = 1;
-    Better better = Better::lower;
+    eval::Direction better = eval::Direction::lower;
 };
 
 Shown shown(const Metric& metric) {

@@ -79,9 +79,9 @@ std::string latex_text(const std::string& text) {
 std::string latex_heading(const Metric& metric) {
     const auto& text = metric.heading;
     const auto low = text.find('_');
-    const auto* const arrow = metric.better == Better::lower    ? " $\\downarrow$"
-                              : metric.better == Better::higher ? " $\\uparrow$"
-                                                                : " $\\rightarrow$";
+    const auto* const arrow = metric.better == eval::Direction::lower    ? " $\\downarrow$"
+                              : metric.better == eval::Direction::higher ? " $\\uparrow$"
+                                                                         : " $\\rightarrow$";
     if (low == std::string::npos) return latex_text(text) + arrow;
     return latex_text(text.substr(0, low)) + "$_{" + text.substr(low + 1) + "}$" + arrow;
 }

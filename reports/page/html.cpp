@@ -18,11 +18,11 @@ struct Arrow {
     const char *text, *title;
 };
 
-Arrow arrow(Better better) {
+Arrow arrow(eval::Direction better) {
     switch (better) {
-        case Better::lower:
+        case eval::Direction::lower:
             return {"↓", "lower is better"};
-        case Better::higher:
+        case eval::Direction::higher:
             return {"↑", "higher is better"};
         default:
             return {"→", "nearest to real motions is best"};

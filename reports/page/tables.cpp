@@ -67,7 +67,7 @@ struct Column {
     std::size_t dataset, metric;
 
     Figures& at(std::size_t row) { return table.rows[row][dataset].figures[metric]; }
-    Better better() const { return table.paper->columns[dataset].metrics[metric].better; }
+    eval::Direction better() const { return table.paper->columns[dataset].metrics[metric].better; }
 };
 
 /// Marks the rows whose value, which `value` gives where there is one, is the best; `real` gives what real motions have beside it. The
@@ -78,7 +78,7 @@ void mark_best(Column column, Value value, Real real, bool Figures::*mark) {
     std::optional<double> best;
     for (std::size_t r = 0; r < distances.size(); ++r) {
         const std::optional<double> mine = value(column.at(r)), ideal = real(column.at(r));
-        const bool comparable = ideal || column.better() != Better::nearest_to_real;
+        const bool comparable = ideal || column.better() != eval::Direction::nearest_real;
         if (!mine || !std::isfinite(*mine) || !comparable || column.table.paper->real == r) continue;
         distances[r] = distance_from_best(column.better(), *mine, ideal.value_or(0));
         if (!best || *distances[r] < *best) best = distances[r];

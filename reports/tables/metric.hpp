@@ -3,24 +3,24 @@
 
 #include <string>
 
+#include "eval/metrics/metric.hpp"
+
 namespace actformer::reports {
 
-enum class Better { lower, higher, nearest_to_real };
-
 /// "lower", "higher", "nearest to real"
-const char* name_of(Better better);
+const char* name_of(eval::Direction better);
 
 struct Metric {
     std::string name;     ///< in the scores' JSON: "fid_mean"
     std::string heading;  ///< "FIDm"
     double scale = 1;     ///< printed = scale * measured: 100 for shares in per cent
-    Better better = Better::lower;
+    eval::Direction better = eval::Direction::lower;
 };
 
 /// As scoring knows it. Throws Error naming the metrics that there are.
 Metric scored_metric(const std::string& name);
 
 /// Distance from the best value; the smaller, the better. `real` is the value of real motions, which only nearest_to_real asks for.
-double distance_from_best(Better better, double value, double real);
+double distance_from_best(eval::Direction better, double value, double real);
 
 }  // namespace actformer::reports

@@ -82,9 +82,10 @@ class TableReader {
         if (own["better"]) out.better = better(own["better"]);
         return out;
     }
-    Better better(const Node& node) const {
+    eval::Direction better(const Node& node) const {
         const auto said = place_.as<std::string>(node, "better", "a text");
-        for (const auto one : {Better::lower, Better::higher, Better::nearest_to_real})
+        for (const auto one :
+             {eval::Direction::lower, eval::Direction::higher, eval::Direction::nearest_real})
             if (said == name_of(one)) return one;
         place_.fail(node,
                     fmt::format("'better' must be lower, higher or nearest to real, and not '{}'", said));

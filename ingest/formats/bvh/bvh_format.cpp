@@ -190,13 +190,7 @@ void BvhFormat::gather_groups() {
 }
 
 std::string BvhFormat::settings() const {
-    std::string splits;
-    for (const auto& split : options_.splits) {
-        splits += fmt::format(" [{}", split.name);
-        for (const auto& c : split.conditions)
-            splits += fmt::format(" {}{}:{}", c.field, c.negated ? "!" : "", fmt::join(c.values, ","));
-        splits += "]";
-    }
+    const auto splits = to_text(options_.splits);
     std::string more;
     if (settings_.up != Up::y) more += fmt::format(", {} up", name_of(settings_.up));
     if (settings_.positions != Positions::told)

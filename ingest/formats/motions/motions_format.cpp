@@ -311,13 +311,7 @@ std::variant<std::vector<NamedClip>, Rejection> MotionsFormat::clips_of(const Su
 
 std::string MotionsFormat::settings() const {
     const auto& header = datasets_[0];
-    std::string splits;
-    for (const auto& split : options_.splits) {
-        splits += fmt::format(" [{}", split.name);
-        for (const auto& c : split.conditions)
-            splits += fmt::format(" {}{}:{}", c.field, c.negated ? "!" : "", fmt::join(c.values, ","));
-        splits += "]";
-    }
+    const auto splits = to_text(options_.splits);
     return fmt::format(
         "motions: dataset '{}', {}, axes '{}', {} up, {} metres a unit, {} frames a second, {} persons, {}, "
         "{}, joints {} below {}, "

@@ -61,8 +61,8 @@ TEST(PaperTables, HoldIntervalsAndWhatIsNotAtHand) {
     const auto& metrics = table.columns[0].metrics;
     EXPECT_EQ(metrics[0].heading, "Acc.");
     EXPECT_EQ(metrics[0].scale, 1);
-    EXPECT_EQ(metrics[0].better, Better::higher) << "as scoring has it";
-    EXPECT_EQ(metrics[1].better, Better::higher) << "as the table has it";
+    EXPECT_EQ(metrics[0].better, eval::Direction::higher) << "as scoring has it";
+    EXPECT_EQ(metrics[1].better, eval::Direction::higher) << "as the table has it";
     EXPECT_EQ(table.real, 0U);
     const auto figure = [&](std::size_t row, std::size_t metric) {
         return table.rows[row].figures[0][metric];
