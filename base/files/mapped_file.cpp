@@ -15,6 +15,8 @@
 namespace actformer {
 namespace {
 
+constexpr std::size_t released_at_once = std::size_t{8}
+                                         << 20;  // each release interrupts all threads of the process
 constexpr std::size_t page = 4096;  // of x86-64 and most others; larger ones hold whole multiples of it
 
 std::size_t whole_pages(std::size_t bytes) {
@@ -54,20 +56,26 @@ MappedFile::~MappedFile() {
 }
 
 MappedFile::MappedFile(MappedFile&& other) noexcept
-    : memory_(std::exchange(other.memory_, nullptr)), size_(other.size_), mapped_(other.mapped_) {}
+    : memory_(std::exchange(other.memory_, nullptr)),
+      size_(other.size_),
+      mapped_(other.mapped_),
+      released_(other.released_) {}
 
 MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
     std::swap(memory_, other.memory_);
     std::swap(size_, other.size_);
     std::swap(mapped_, other.mapped_);
+    std::swap(released_, other.released_);
     return *this;
 }
 
 void MappedFile::release(const char* here) const {
-    const auto bytes = whole_pages(static_cast<std::size_t>(here - memory_));
-    const auto all_before =
-        bytes == static_cast<std::size_t>(here - memory_) ? bytes : bytes - whole_pages(1);
-    if (all_before > 0) ::madvise(memory_, all_before, MADV_DONTNEED);
+    const auto bytes = static_cast<std::size_t>(here - memory_), beyond = whole_pages(bytes);
+    const auto passed = beyond == bytes ? bytes : beyond - whole_pages(1);
+    if (passed < released_) released_ = 0;  // read from the beginning again
+    if (passed - released_ < released_at_once) return;
+    ::madvise(memory_ + released_, passed - released_, MADV_DONTNEED);
+    released_ = passed;
 }
 
 }  // namespace actformer

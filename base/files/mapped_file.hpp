@@ -19,12 +19,14 @@ class MappedFile {
     /// What it holds, followed by text_padding zero bytes.
     std::string_view text() const { return {memory_, size_}; }
 
-    /// Bytes before `here` are not needed for now: the memory they take becomes free. They can still be read.
+    /// Bytes before `here` are not needed for now: the memory they take becomes free, some megabytes at a time. They can still be
+    /// read. Not from several threads at once.
     void release(const char* here) const;
 
   private:
     char* memory_ = nullptr;
     std::size_t size_ = 0, mapped_ = 0;
+    mutable std::size_t released_ = 0;  ///< bytes before this lie in no memory
 };
 
 }  // namespace actformer

@@ -27,7 +27,7 @@ constexpr std::size_t portions_ahead = 6;  // parsed and waiting to be cleaned: 
 
 // Clips are cleaned together up to a group's end or so many bytes, and a shard is closed at a tranche's end or beyond so many.
 // Both depend on the clips alone, so that the output does not depend on which thread was fast.
-constexpr std::size_t most_cleaned_at_once = std::size_t{64} << 20;
+constexpr std::size_t most_cleaned_at_once = std::size_t{16} << 20;
 constexpr std::size_t most_in_a_shard = std::size_t{128} << 20;
 
 using Clock = std::chrono::steady_clock;

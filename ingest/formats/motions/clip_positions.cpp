@@ -39,10 +39,10 @@ class Reading {
     /// pose_ of a body, in metres and upright. False where a number is missing or all are zero.
     bool load(std::uint64_t frame, std::uint64_t person) {
         array_.pose(clip_, first_ + frame, person, raw_.data());
-        double any = 0, no_number = 0;
+        int any = 0, no_number = 0;  // without branches or sums in order, so that it runs in vectors
         for (const double x : raw_) {
-            any += std::abs(x);
-            no_number += x - x;
+            any |= x != 0;
+            no_number |= !(x - x == 0);
         }
         for (std::size_t d = 0; d < 3; ++d) {
             const int axis = request_.axes[d];
@@ -50,7 +50,7 @@ class Reading {
             const double* from = raw_.data() + std::abs(axis) - 1;
             for (std::size_t j = 0; j < joints_; ++j) pose_[3 * j + d] = factor * from[3 * j];
         }
-        return no_number == 0 && any != 0;
+        return any && !no_number;
     }
 
     /// Straight from the array; false, and nothing done, where not every body is whole in every frame.
@@ -91,7 +91,9 @@ class Reading {
     }
 
     bool within_reach(const double* body) const {
-        return std::all_of(body, body + joints_ * 3, [](double x) { return std::abs(x) < farthest; });
+        int beyond = 0;
+        for (std::size_t i = 0; i < joints_ * 3; ++i) beyond |= !(std::abs(body[i]) < farthest);
+        return !beyond;
     }
 
     std::string check(double* body, std::uint64_t frame) const {
