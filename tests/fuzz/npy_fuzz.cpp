@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/numpy/npz.hpp"
 #include "ingest/formats/motions/joint_array.hpp"
-#include "ingest/formats/motions/npz.hpp"
 
 using namespace actformer;
 using namespace actformer::ingest;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ingest/formats/motions/npy.hpp"
+#include "base/numpy/npy.hpp"
 
 namespace actformer::ingest {
 

@@ -6,9 +6,9 @@
 
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
+#include "base/numpy/npz.hpp"
 #include "base/text/printable.hpp"
 #include "ingest/formats/motions/csv_motion.hpp"
-#include "ingest/formats/motions/npz.hpp"
 
 namespace actformer::ingest {
 namespace {

@@ -1,4 +1,4 @@
-#include "ingest/formats/motions/npy.hpp"
+#include "base/numpy/npy.hpp"
 
 #include <bit>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "base/text/printable.hpp"
 
-namespace actformer::ingest {
+namespace actformer {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are read as they lie");
@@ -312,4 +312,4 @@ NumpyArray read_npy(std::string_view bytes) {
     return array;
 }
 
-}  // namespace actformer::ingest
+}  // namespace actformer

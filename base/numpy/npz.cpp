@@ -1,4 +1,4 @@
-#include "ingest/formats/motions/npz.hpp"
+#include "base/numpy/npz.hpp"
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "base/text/printable.hpp"
 
-namespace actformer::ingest {
+namespace actformer {
 namespace {
 
 constexpr std::string_view extension = ".npy";
@@ -97,4 +97,4 @@ void read_npz(std::string_view bytes, bool heads_only,
     }
 }
 
-}  // namespace actformer::ingest
+}  // namespace actformer

@@ -1,5 +1,5 @@
 // NumPy arrays as NumPy writes them, and as it does not.
-#include "ingest/formats/motions/npy.hpp"
+#include "base/numpy/npy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,13 +8,12 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "ingest/formats/motions/npz.hpp"
+#include "base/numpy/npz.hpp"
 #include "tests/support/arrays.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
-using namespace actformer::ingest;
 using namespace actformer::test;
 
 namespace {

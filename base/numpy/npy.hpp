@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace actformer::ingest {
+namespace actformer {
 
 /// An array as it lies in memory.
 struct NumpyArray {
@@ -47,4 +47,4 @@ NumpyArray read_npy_header(std::string_view bytes);
 /// or hold Python objects, which only running them could read. Arrays of other kinds than numbers and texts come without values.
 NumpyArray read_npy(std::string_view bytes);
 
-}  // namespace actformer::ingest
+}  // namespace actformer
