@@ -4,6 +4,7 @@
 #include <archive_entry.h>
 
 #include <cstring>
+#include <limits>
 #include <memory>
 
 #include "base/error.hpp"
@@ -13,8 +14,7 @@ namespace actformer {
 namespace {
 
 constexpr std::string_view extension = ".npy";
-constexpr std::size_t head = std::size_t{1} << 16;               // more than any header takes
-constexpr std::uint64_t largest_array = std::uint64_t{4} << 30;  // in memory at once
+constexpr std::size_t head = std::size_t{1} << 16;  // more than any header takes
 constexpr std::size_t largest_metadata = std::size_t{1}
                                          << 20;  // texts and the like are wanted with the heads
 
@@ -38,7 +38,7 @@ class Zip {
             if (!member_.ends_with(extension)) continue;
             name = member_.substr(0, member_.size() - extension.size());
             size_ = archive_entry_size_is_set(entry) ? static_cast<std::uint64_t>(archive_entry_size(entry))
-                                                     : largest_array;
+                                                     : std::numeric_limits<std::uint64_t>::max();
             return true;
         }
     }
@@ -75,21 +75,22 @@ class Zip {
 
 }  // namespace
 
-void read_npz(std::string_view bytes, bool heads_only,
+void read_npz(std::string_view bytes, const NpzSelection& selection,
               const std::function<void(const std::string&, const NumpyArray&)>& use) {
     Zip zip(bytes);
     std::vector<char> memory;
     for (std::string name; zip.next(name);) {
+        if (selection.wanted && !selection.wanted(name)) continue;
         const auto where = printable(name);
         try {
-            if (heads_only && zip.size() > largest_metadata) {
+            if (selection.heads_only && zip.size() > largest_metadata) {
                 use(name, read_npy_header(zip.read(memory, head)));
                 continue;
             }
-            const auto array = zip.read(memory, largest_array);
-            if (array.size() == largest_array)
-                throw Error("more than the {} GiB that one array of an archive may have; save it as .npy",
-                            largest_array >> 30);
+            const auto array = zip.read(memory, selection.largest);
+            if (array.size() == selection.largest)
+                throw Error("more than the {} MiB that this array may have in an archive",
+                            selection.largest >> 20);
             use(name, read_npy(array));
         } catch (const Error& e) {
             throw Error("'{}': {}", where, e.what());

@@ -52,7 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try_to([&] { check(read_npy(bytes), bytes); });
     for (const bool heads : {true, false})
         try_to([&] {
-            read_npz(bytes, heads, [](const std::string&, const NumpyArray& array) {
+            read_npz(bytes, {.heads_only = heads}, [](const std::string&, const NumpyArray& array) {
                 if (!array.values.empty()) demand(array.elements() * array.size == array.values.size());
             });
         });

@@ -106,7 +106,7 @@ class Look {
         std::vector<std::pair<std::string, NumpyArray>> arrays;
         std::map<std::string, std::vector<double>> numbers;
         std::map<std::string, std::vector<std::string>> texts;
-        read_npz(raw_.text, true, [&](const std::string& name, const NumpyArray& array) {
+        read_npz(raw_.text, {.heads_only = true}, [&](const std::string& name, const NumpyArray& array) {
             if (!telling.contains(name)) return void(arrays.emplace_back(name, array));
             if (array.values.empty()) return;
             if (array.numbers()) numbers[name] = array.all_numbers();
@@ -244,7 +244,7 @@ void take_motions(const RawText& raw, const MotionFile& file, const Topology& to
             return taker.array(file.motions[0], JointArray(array, topology.joints(), axes));
         }
         case Kind::npz:
-            return read_npz(raw.text, false, [&](const std::string& name, const NumpyArray& array) {
+            return read_npz(raw.text, {}, [&](const std::string& name, const NumpyArray& array) {
                 if (telling.contains(name)) return;
                 if (const auto* found = found_in(file, name))
                     taker.array(*found, JointArray(array, topology.joints(), axes));

@@ -29,7 +29,7 @@ std::string fault(const std::string& bytes) {
 
 std::string npz_fault(const std::string& bytes) {
     try {
-        read_npz(bytes, false, [](auto&, auto&) {});
+        read_npz(bytes, {}, [](auto&, auto&) {});
         return "taken";
     } catch (const Error& e) {
         return e.what();
@@ -133,7 +133,7 @@ TEST(Npz, ReadsWhatNumPyWrites) {
         const auto bytes = read_file(dir / name);
         for (const bool heads : {false, true}) {
             std::vector<std::string> seen;
-            read_npz(bytes, heads, [&](const std::string& key, const NumpyArray& array) {
+            read_npz(bytes, {.heads_only = heads}, [&](const std::string& key, const NumpyArray& array) {
                 seen.push_back(key + array.shape_text());
                 if (key == "a") {
                     EXPECT_EQ(array.all_numbers(), (Doubles{0, 1, 2, 3, 4, 5}));
