@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ingest/dataset/body_model.hpp"
+#include "ingest/dataset/origin.hpp"
 #include "ingest/dataset/split.hpp"
 
 namespace actformer::hdf5 {
@@ -23,6 +24,7 @@ struct DatasetHeader {
     Representation representation;
     Topology topology;
     std::vector<float> rest;  ///< (joints, 3) metres, as in BodyModel; of rotations, else empty
+    DataOrigin origin;
     std::uint32_t persons = 1;
     double fps = 30;
     bool centre_windows =

@@ -62,6 +62,22 @@ std::vector<float> rest_from_json(const Json& json, const DatasetHeader& header,
     return rest;
 }
 
+/// Datasets of earlier versions do not tell it.
+DataOrigin origin_from_json(const Json& json, const std::string& where) {
+    DataOrigin origin;
+    const auto said = json.value("origin", Json::object());
+    if (said.contains("data")) origin.kind = origin_named(said.at("data").get<std::string>(), where);
+    origin.skeleton = said.value("skeleton", "");
+    return origin;
+}
+
+Json origin_to_json(const DataOrigin& origin) {
+    Json said = Json::object();
+    if (origin.kind) said["data"] = name_of(*origin.kind);
+    if (!origin.skeleton.empty()) said["skeleton"] = origin.skeleton;
+    return said;
+}
+
 DatasetFile from_json(const Json& json, const std::string& where) {
     if (const auto format = json.at("format").get<int>(); format < 1 || format > dataset_format)
         throw Error(
@@ -84,6 +100,7 @@ DatasetFile from_json(const Json& json, const std::string& where) {
     for (const auto& shard : json.at("shards")) file.shards.push_back(shard_from_json(shard));
     header.topology.check(where);
     header.rest = rest_from_json(json, header, where);
+    header.origin = origin_from_json(json, where);
     if (header.persons == 0 || !(header.fps > 0) || !std::isfinite(header.fps))
         throw Error("{}: persons and fps must be above 0", where);
     return file;
@@ -134,6 +151,7 @@ std::string to_text(const DatasetFile& file) {
               {"source", file.fingerprint},
               {"shards", shards}};
     if (!header.rest.empty()) json["rest"] = rest_to_json(header.rest);
+    if (header.origin != DataOrigin{}) json["origin"] = origin_to_json(header.origin);
     if (header.centre_windows) json["centre"] = "window";
     return json.dump(1) + "\n";
 }

@@ -11,6 +11,7 @@
 #include "base/text/printable.hpp"
 #include "ingest/formats/motions/topology_file.hpp"
 #include "ingest/formats/skeletal/up.hpp"
+#include "ingest/smpl/smpl24.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -203,12 +204,14 @@ void MotionsFormat::settle_header() {
     for (const auto& [index, file] : files_)
         if (header.representation == Representation::rot6d && header.rest.empty()) header.rest = file.rest;
     if (header.representation == Representation::rot6d && header.rest.empty()) {
-        header.rest = generic_rest(header.topology);
-        if (header.rest.empty())
+        const auto skeleton = generic_skeleton();
+        if (header.topology.parents != smpl24().parents)
             throw Error(
                 "rotations, but no rest pose that they turn: a file that tells it has the attribute rest, "
                 "(joints, 3) metres "
                 "from the parent");
+        header.rest = skeleton.rest();
+        header.origin.skeleton = skeleton.source;
         remarks_.emplace_back("the files do not tell the rest pose: that of a mean body is taken");
     }
     positions_.persons = header.persons;

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/smpl/smpl24.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -22,12 +23,7 @@ struct Known {
 const std::vector<Known>& known() {
     static const std::vector<Known> all{
         {"ntu25", ntu25()},
-        {"smpl24",
-         {{"pelvis",     "left hip",    "right hip",    "spine1",      "left knee",     "right knee",
-           "spine2",     "left ankle",  "right ankle",  "spine3",      "left foot",     "right foot",
-           "neck",       "left collar", "right collar", "head",        "left shoulder", "right shoulder",
-           "left elbow", "right elbow", "left wrist",   "right wrist", "left hand",     "right hand"},
-          {-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19, 20, 21}}},
+        {"smpl24", smpl24()},
         {"coco17",
          {{"nose", "left eye", "right eye", "left ear", "right ear", "left shoulder", "right shoulder",
            "left elbow", "right elbow", "left wrist", "right wrist", "left hip", "right hip", "left knee",
@@ -81,24 +77,6 @@ Topology topology_in(const std::string& path) {
 }
 
 }  // namespace
-
-std::vector<float> generic_rest(const Topology& topology) {
-    const auto smpl =
-        std::find_if(known().begin(), known().end(), [](const Known& k) { return k.name == "smpl24"; });
-    if (topology.parents != smpl->topology.parents) return {};
-    // Mean of eight subjects of the CMU motion capture database; left is +x, up +y, ahead +z.
-    constexpr float hip = 0.0916F, collar = 0.060F, shoulder = 0.124F, elbow = 0.296F, wrist = 0.185F,
-                    hand = 0.080F;
-    return {0,        0,      0,       hip,       -0.100F, 0.020F,  -hip,    -0.100F, 0.020F,  // pelvis, hips
-            0,        0.078F, -0.004F, 0,         -0.404F, 0,       0,       -0.404F, 0,  // spine1, knees
-            0,        0.078F, -0.004F, 0,         -0.428F, 0,       0,       -0.428F, 0,  // spine2, ankles
-            0,        0.078F, -0.004F, 0,         -0.030F, 0.117F,  0,       -0.030F, 0.117F,  // spine3, feet
-            0,        0.093F, -0.012F, collar,    0.040F,  0,       -collar, 0.040F,  0,  // neck, collars
-            0,        0.093F, -0.012F,                                                    // head
-            shoulder, 0.020F, -0.008F, -shoulder, 0.020F,  -0.008F,                       //
-            elbow,    0,      0,       -elbow,    0,       0,       wrist,   0,       0,
-            -wrist,   0,      0,       hand,      0,       0,       -hand,   0,       0};
-}
 
 std::vector<std::string_view> known_topologies() {
     std::vector<std::string_view> names;

@@ -16,7 +16,4 @@ std::vector<std::string_view> known_topologies();
 /// names. Throws Error naming the file and what is wrong in it.
 Topology topology_called(const std::string& name_or_file);
 
-/// (joints, 3) metres from the parent in SMPL's rest pose, of a body of mean size; empty for other trees than SMPL's.
-std::vector<float> generic_rest(const Topology& topology);
-
 }  // namespace actformer::ingest

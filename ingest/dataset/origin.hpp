@@ -1,0 +1,32 @@
+// Where a dataset's motion comes from: tables and captions say it with every figure that was measured on it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace actformer::ingest {
+
+struct DataOrigin {
+    enum class Kind {
+        recorded,   ///< by motion capture, or out of videos
+        synthetic,  ///< made by a program and published so, as GTA Combat is
+        stand_in  ///< made in the place of a dataset that is not at hand: no figure is comparable with one of that dataset
+    };
+    std::optional<Kind> kind;  ///< none: not told, as in datasets of earlier versions
+    std::string
+        skeleton;  ///< that rotations turn: "generic", or the name of the model file; empty: the motion's own
+
+    bool operator==(const DataOrigin&) const = default;
+
+    /// For captions: "stand-in, generic skeleton", "recorded, skeleton of SMPL_NEUTRAL.pkl"; empty where nothing is told.
+    std::string text() const;
+};
+
+/// "recorded", "synthetic", "stand-in"
+std::string_view name_of(DataOrigin::Kind kind);
+
+/// Throws Error, beginning with `where`, for a name that is none of these.
+DataOrigin::Kind origin_named(std::string_view name, const std::string& where);
+
+}  // namespace actformer::ingest

@@ -1,0 +1,54 @@
+#include "ingest/dataset/origin.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+#include "ingest/dataset/dataset_json.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer;
+using namespace actformer::ingest;
+using namespace actformer::test;
+
+namespace {
+
+DatasetFile file_of(const DataOrigin& origin) {
+    DatasetFile file;
+    file.header.name = "x";
+    file.header.topology = ntu25();
+    file.header.origin = origin;
+    return file;
+}
+
+}  // namespace
+
+TEST(DataOrigin, IsSaidInCaptions) {
+    using enum DataOrigin::Kind;
+    EXPECT_EQ((DataOrigin{}.text()), "");
+    EXPECT_EQ((DataOrigin{recorded, ""}.text()), "recorded");
+    EXPECT_EQ((DataOrigin{stand_in, "generic"}.text()), "stand-in, generic skeleton");
+    EXPECT_EQ((DataOrigin{synthetic, "SMPL_NEUTRAL.pkl"}.text()), "synthetic, skeleton of SMPL_NEUTRAL.pkl");
+    EXPECT_EQ((DataOrigin{{}, "generic"}.text()), "generic skeleton");
+}
+
+TEST(DataOrigin, StandsInDatasetJsonWhereItIsTold) {
+    const TempDir dir;
+    using enum DataOrigin::Kind;
+    for (const auto& origin : {DataOrigin{}, DataOrigin{recorded, ""}, DataOrigin{stand_in, "generic"},
+                               DataOrigin{synthetic, "a.pkl"}, DataOrigin{{}, "generic"}}) {
+        const auto text = to_text(file_of(origin));
+        EXPECT_EQ(text.find("\"origin\"") == std::string::npos, origin == DataOrigin{});
+        write_file(dir / "dataset.json", text);
+        EXPECT_EQ(read_dataset_json(dir / "dataset.json").header.origin, origin);
+    }
+    auto text = to_text(file_of({recorded, ""}));
+    text.replace(text.find("recorded"), 8, "invented");
+    write_file(dir / "dataset.json", text);
+    try {
+        read_dataset_json(dir / "dataset.json");
+        FAIL() << "taken";
+    } catch (const Error& e) {
+        EXPECT_EQ(std::string(e.what()), (dir / "dataset.json").string() +
+                                             ": origin 'invented' is none of recorded, synthetic, stand-in");
+    }
+}
