@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "kernels/device.hpp"
+#include "kernels/memory_pool.hpp"
 
 namespace actformer::kernels {
 
@@ -16,11 +18,11 @@ template <typename T>
 class Mapping {
   public:
     Mapping() = default;
-    Mapping(Device& device, const cl::Buffer& memory, std::size_t count, cl_map_flags how)
-        : queue_(device.queue()), memory_(memory) {
+    Mapping(Device& device, std::shared_ptr<const cl::Buffer> memory, std::size_t count, cl_map_flags how)
+        : queue_(device.queue()), memory_(std::move(memory)) {
         if (count == 0) return;
         try {
-            values_ = {static_cast<T*>(queue_.enqueueMapBuffer(memory_, CL_TRUE, how, 0, count * sizeof(T))),
+            values_ = {static_cast<T*>(queue_.enqueueMapBuffer(*memory_, CL_TRUE, how, 0, count * sizeof(T))),
                        count};
         } catch (const cl::Error& e) {
             raise(device.info(), "mapping device memory", e);
@@ -29,7 +31,7 @@ class Mapping {
     ~Mapping() {
         // Fails only where the device is lost, which the next call reports.
         if (!values_.empty())
-            clEnqueueUnmapMemObject(queue_(), memory_(), values_.data(), 0, nullptr, nullptr);
+            clEnqueueUnmapMemObject(queue_(), (*memory_)(), values_.data(), 0, nullptr, nullptr);
     }
     Mapping(Mapping&& other) noexcept { swap(other); }
     Mapping& operator=(Mapping&& other) noexcept {
@@ -47,7 +49,7 @@ class Mapping {
     }
 
     cl::CommandQueue queue_;
-    cl::Buffer memory_;
+    std::shared_ptr<const cl::Buffer> memory_;
     std::span<T> values_;
 };
 
@@ -60,11 +62,8 @@ class Buffer {
     /// `spare` values behind the others may be read by kernels, which make no use of them.
     Buffer(Device& device, std::size_t count, std::size_t spare = 0) : device_(&device), count_(count) {
         try {
-            // OpenCL has no empty buffers: an empty one has a spare value. PoCL allocates memory that the host reaches at once,
-            // and reports here where there is too little; other memory it allocates at first use, and ends the process.
-            const cl_mem_flags where = device.info().shares_memory ? CL_MEM_ALLOC_HOST_PTR : 0;
-            memory_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE | where,
-                                 std::max<std::size_t>(count + spare, 1) * sizeof(T));
+            // OpenCL has no empty buffers: an empty one has a spare value.
+            memory_ = device.memory().take(std::max<std::size_t>(count + spare, 1) * sizeof(T));
         } catch (const cl::Error& e) {
             raise(device.info(), fmt::format("allocating {} bytes", count * sizeof(T)), e);
         }
@@ -74,13 +73,13 @@ class Buffer {
     Buffer(Device& device, const std::vector<T>& values) : Buffer(device, std::span<const T>(values)) {}
 
     std::size_t size() const { return count_; }
-    const cl::Buffer& memory() const { return memory_; }
+    const cl::Buffer& memory() const { return *memory_; }  ///< of a buffer that has a device
 
     /// Copies as many values as `values` holds to the front; returns once they may change again.
     void upload(std::span<const T> values) {
         if (values.empty()) return;
         try {
-            device_->queue().enqueueWriteBuffer(memory_, CL_TRUE, 0, values.size_bytes(), values.data());
+            device_->queue().enqueueWriteBuffer(*memory_, CL_TRUE, 0, values.size_bytes(), values.data());
         } catch (const cl::Error& e) {
             raise(device_->info(), "copying to the device", e);
         }
@@ -90,7 +89,7 @@ class Buffer {
     void download(std::span<T> values) const {
         if (values.empty()) return;
         try {
-            device_->queue().enqueueReadBuffer(memory_, CL_TRUE, 0, values.size_bytes(), values.data());
+            device_->queue().enqueueReadBuffer(*memory_, CL_TRUE, 0, values.size_bytes(), values.data());
         } catch (const cl::Error& e) {
             raise(device_->info(), "copying from the device", e);
         }
@@ -116,7 +115,7 @@ class Buffer {
   private:
     Device* device_ = nullptr;
     std::size_t count_ = 0;
-    cl::Buffer memory_;
+    std::shared_ptr<const cl::Buffer> memory_;
 };
 
 namespace detail {

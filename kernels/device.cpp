@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "kernels/buffer.hpp"
+#include "kernels/memory_pool.hpp"
 #include "kernels/program_cache.hpp"
 #include "kernels/sources.hpp"
 
@@ -118,6 +119,10 @@ Device::Device(std::string_view wish) {
     } catch (const cl::Error& e) {
         raise(info_, "opening it", e);
     }
+    // PoCL allocates memory that the host reaches at once, and reports there where there is too little; other memory it allocates
+    // at first use, and ends the process.
+    memory_ = std::make_shared<MemoryPool>(
+        context_, CL_MEM_READ_WRITE | (info_.shares_memory ? cl_mem_flags{CL_MEM_ALLOC_HOST_PTR} : 0));
     programs_ = std::make_unique<ProgramCache>(context_, device_);
 }
 

@@ -12,6 +12,7 @@
 
 namespace actformer::kernels {
 
+class MemoryPool;
 class ProgramCache;
 
 /// What matters of a device when choosing one.
@@ -46,6 +47,7 @@ class Device {
     const cl::Device& handle() const { return device_; }
     const cl::Context& context() const { return context_; }
     cl::CommandQueue& queue() { return queue_; }
+    MemoryPool& memory() { return *memory_; }
 
     /// Kernel `name` of kernels/cl/FILE.cl, built once per (source, options, device).
     /// Throws Error with the compiler's log where the build fails.
@@ -60,6 +62,7 @@ class Device {
     cl::Device device_;
     cl::Context context_;
     cl::CommandQueue queue_;
+    std::shared_ptr<MemoryPool> memory_;
     std::unique_ptr<ProgramCache> programs_;
 };
 

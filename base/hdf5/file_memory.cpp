@@ -1,5 +1,7 @@
 #include "base/hdf5/file_memory.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -13,6 +15,15 @@ namespace {
 // when its values come, and no more than a page of it is left over at the end.
 constexpr std::size_t page = direct_block;
 
+/// None where there is not enough memory.
+std::unique_ptr<char, Unmap> map(std::size_t bytes) {
+    void* memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) return {};
+    ::madvise(memory, bytes,
+              MADV_HUGEPAGE);  // a page of 2 MiB costs one fault where 512 small ones cost as many
+    return std::unique_ptr<char, Unmap>(static_cast<char*>(memory), {bytes});
+}
+
 }  // namespace
 
 void FileMemory::serve(hid_t access) {
@@ -25,24 +36,26 @@ void FileMemory::serve(hid_t access) {
         return static_cast<FileMemory*>(self)->resize(size);
     };
     callbacks.image_free = [](void*, H5FD_file_image_op_t, void* self) -> herr_t {
-        static_cast<FileMemory*>(self)->bytes_.reset();
+        static_cast<FileMemory*>(self)->block_.reset();
         return 0;
     };
     H5Pset_file_image_callbacks(access, &callbacks);
 }
 
+void Unmap::operator()(char* memory) const {
+    ::munmap(memory, bytes);
+}
+
 /// Null where there is not enough memory, which the library reports.
 void* FileMemory::resize(std::size_t size) {
-    if (size > room_) {
-        const auto wanted = (std::max(size + size / 2, expected_) + page - 1) / page * page;
-        decltype(bytes_) grown(static_cast<char*>(std::aligned_alloc(page, wanted)), &std::free);
+    if (size > block_.get_deleter().bytes) {
+        auto grown = map((std::max(size + size / 2, expected_) + page - 1) / page * page);
         if (!grown) return nullptr;
-        if (bytes_) std::memcpy(grown.get(), bytes_.get(), used_);
-        bytes_ = std::move(grown);
-        room_ = wanted;
+        if (block_) std::memcpy(grown.get(), block_.get(), used_);
+        block_ = std::move(grown);
     }
     used_ = size;
-    return bytes_.get();
+    return block_.get();
 }
 
 }  // namespace actformer::hdf5
