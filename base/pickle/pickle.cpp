@@ -1,0 +1,27 @@
+#include "base/pickle/pickle.hpp"
+
+#include "base/error.hpp"
+#include "base/pickle/machine.hpp"
+#include "base/pickle/node.hpp"
+#include "base/pickle/unpack.hpp"
+#include "base/text/html.hpp"
+
+namespace actformer {
+
+Pickle::Pickle(std::string_view text, const PickleLimits& limits, const Passed& passed)
+    : store_(std::make_unique<PickleStore>()) {
+    if (text.empty()) throw Error("the file is empty");
+    if (is_html(text)) throw Error("{}", html_in_place_of("a pickle"));
+    if (auto inside = unpacked(text, limits.unpacked)) {
+        store_->unpacked = std::move(*inside);
+        root_ = PickleMachine(store_->unpacked, limits, *store_).run({});
+    } else {
+        root_ = PickleMachine(text, limits, *store_).run(passed);
+    }
+}
+
+Pickle::~Pickle() = default;
+Pickle::Pickle(Pickle&&) noexcept = default;
+Pickle& Pickle::operator=(Pickle&&) noexcept = default;
+
+}  // namespace actformer

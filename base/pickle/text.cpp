@@ -1,0 +1,105 @@
+#include "base/pickle/text.hpp"
+
+namespace actformer {
+namespace {
+
+[[noreturn]] void malformed() {
+    throw Error("a text that is not spelled as Python spells it");
+}
+
+int hex_digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    malformed();
+}
+
+std::uint32_t hex(std::string_view text, std::size_t from, std::size_t digits) {
+    if (from + digits > text.size()) malformed();
+    std::uint32_t value = 0;
+    for (const char c : text.substr(from, digits))
+        value = value << 4 | static_cast<std::uint32_t>(hex_digit(c));
+    return value;
+}
+
+void append_utf8(std::uint32_t character, std::string& text) {
+    const auto byte = [&](std::uint32_t bits) { text += static_cast<char>(bits); };
+    const auto next = [&](int shift) { byte(0x80 | (character >> shift & 0x3F)); };
+    if (character > 0x10FFFF) malformed();
+    if (character < 0x80) return byte(character);
+    if (character < 0x800) {
+        byte(0xC0 | character >> 6);
+    } else if (character < 0x10000) {
+        byte(0xE0 | character >> 12);
+        next(6);
+    } else {
+        byte(0xF0 | character >> 18);
+        next(12);
+        next(6);
+    }
+    next(0);
+}
+
+/// What one letter behind a backslash stands for.
+char escaped(char letter) {
+    constexpr std::string_view letters = "\\'\"abfnrtv", stand_for = "\\'\"\a\b\f\n\r\t\v";
+    const auto found = letters.find(letter);
+    if (found == std::string_view::npos) malformed();
+    return stand_for[found];
+}
+
+}  // namespace
+
+std::string of_quoted_bytes(std::string_view line) {
+    if (line.size() < 2 || (line[0] != '\'' && line[0] != '"') || line.back() != line[0]) malformed();
+    line = line.substr(1, line.size() - 2);
+    std::string out;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] != '\\') {
+            out += line[i];
+        } else if (++i == line.size()) {
+            malformed();
+        } else if (line[i] == 'x') {
+            out += static_cast<char>(hex(line, i + 1, 2));
+            i += 2;
+        } else {
+            out += escaped(line[i]);
+        }
+    }
+    return out;
+}
+
+std::string of_escaped_unicode(std::string_view line) {
+    std::string out;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const bool is_escape =
+            line[i] == '\\' && i + 1 < line.size() && (line[i + 1] == 'u' || line[i + 1] == 'U');
+        if (!is_escape) {
+            append_utf8(static_cast<unsigned char>(line[i]), out);
+            continue;
+        }
+        const std::size_t digits = line[i + 1] == 'u' ? 4 : 8;
+        append_utf8(hex(line, i + 2, digits), out);
+        i += 1 + digits;
+    }
+    return out;
+}
+
+std::string latin1_of(std::string_view utf8) {
+    std::string out;
+    out.reserve(utf8.size());
+    for (std::size_t i = 0; i < utf8.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(utf8[i]);
+        if (byte < 0x80) {
+            out += utf8[i];
+            continue;
+        }
+        const bool two = (byte == 0xC2 || byte == 0xC3) && i + 1 < utf8.size() &&
+                         (static_cast<unsigned char>(utf8[i + 1]) & 0xC0) == 0x80;
+        if (!two) throw Error("bytes written as a text with a character above 255");
+        out += static_cast<char>((byte & 3) << 6 | (static_cast<unsigned char>(utf8[++i]) & 0x3F));
+    }
+    return out;
+}
+
+}  // namespace actformer
