@@ -69,6 +69,11 @@ MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
     return *this;
 }
 
+void MappedFile::release_all() const {
+    ::madvise(memory_, mapped_, MADV_DONTNEED);
+    released_ = 0;
+}
+
 void MappedFile::release(const char* here) const {
     const auto bytes = static_cast<std::size_t>(here - memory_), beyond = whole_pages(bytes);
     const auto passed = beyond == bytes ? bytes : beyond - whole_pages(1);

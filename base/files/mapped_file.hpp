@@ -23,6 +23,9 @@ class MappedFile {
     /// read. Not from several threads at once.
     void release(const char* here) const;
 
+    /// The memory that any of it takes becomes free, at once. Not from several threads at once.
+    void release_all() const;
+
   private:
     char* memory_ = nullptr;
     std::size_t size_ = 0, mapped_ = 0;

@@ -38,6 +38,11 @@ struct RawText {
     void release(const char* here) const {
         if (mapped) mapped->release(here);
     }
+
+    /// The same of all of the text: memory stays flat where a large file is read here and there.
+    void release_all() const {
+        if (mapped) mapped->release_all();
+    }
 };
 
 /// A parsed clip, before it is cleaned. Formats derive from it what they need to know.
@@ -97,6 +102,10 @@ class Format {
     /// Called once a file, from many threads at once and in any order; without its text where names are all that is asked for.
     /// Throws nothing for what is in the text. Files that cannot be read are passed over.
     virtual void survey(const RawText&) {}
+
+    /// Whether a survey of texts needs this file's text. Other files come by their names alone: those out of archives are then not
+    /// unpacked for it. Called from many threads at once.
+    virtual bool surveys_text_of(const RawText&) const { return true; }
 
     /// After the last survey(), and always before what follows. Throws Error where the files make no dataset.
     virtual void settle() {}

@@ -107,6 +107,10 @@ class Ingest {
     }
 
     void survey_texts(Source& source) {
+        const auto needs_text = [this](const RawFile& file) {
+            return !format_.refuse(file.raw()) && format_.surveys_text_of(file.raw());
+        };
+        source.unpack_only(needs_text);
         Groups groups(source, static_cast<double>(source.bytes_total()));
         std::vector<TextMemory> memory;
         for (unsigned t = 0; t < threads_; ++t) memory.emplace_back(format_.largest_file());
@@ -115,7 +119,7 @@ class Ingest {
                 const auto& file = group.items[i].file;
                 if (format_.refuse(file.raw())) return;
                 try {
-                    format_.survey(memory[thread].read(file));
+                    format_.survey(needs_text(file) ? memory[thread].read(file) : file.raw());
                 } catch (const Error&) {  // it cannot be read, and is rejected when it is to be parsed
                 }
             });
@@ -200,6 +204,7 @@ class Ingest {
             sink.take(Rejection{Rejection::Kind::broken, why});
         }
         item.file.bytes = {};
+        item.file.unpacked.reset();
     }
 
     /// Takes what was parsed, and cleans it as soon as it is enough.

@@ -2,15 +2,20 @@
 
 #include <archive.h>
 #include <archive_entry.h>
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <iterator>
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/text/html.hpp"
 #include "base/threads/parallel.hpp"
 
 namespace actformer::ingest {
@@ -50,11 +55,62 @@ std::string stem_of(const std::string& path, const Extensions& extensions) {
     return name.substr(0, name.size() - extension_of(name, extensions));
 }
 
+/// A page of the web under an archive's name is said to be one.
+void check_no_html(const fs::path& path) {
+    constexpr std::size_t enough = 512;
+    std::string start(enough, '\0');
+    std::ifstream file(path, std::ios::binary);
+    file.read(start.data(), static_cast<std::streamsize>(enough));
+    start.resize(static_cast<std::size_t>(file.gcount()));
+    if (is_html(start)) throw Error("{}: {}", path.string(), html_in_place_of("an archive"));
+}
+
+/// A member of an archive on its way to a disk.
+class Unpacked {
+  public:
+    /// What there is of it in memory goes first.
+    explicit Unpacked(RawFile& file) {
+        file.unpacked = std::make_shared<const Scratch>("unpacked");
+        file.in_memory = false;
+        to_ = file.on_disk();
+        descriptor_ = ::open(to_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+        if (descriptor_ < 0) fail();
+        write(file.bytes.data(), file.bytes.size(), 0);
+        file.bytes = {};
+    }
+    ~Unpacked() { ::close(descriptor_); }
+    Unpacked(const Unpacked&) = delete;
+    Unpacked& operator=(const Unpacked&) = delete;
+
+    void write(const void* block, std::size_t size, std::int64_t offset) {
+        for (const char* from = static_cast<const char*>(block); size > 0;) {
+            const auto written = ::pwrite(descriptor_, from, size, offset);
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) fail();
+            from += written;
+            offset += written;
+            size -= static_cast<std::size_t>(written);
+        }
+    }
+
+  private:
+    [[noreturn]] void fail() const {
+        throw Error(
+            "{}: cannot be written: {}; large files of an archive are unpacked there: name a folder with "
+            "room in TMPDIR",
+            to_.parent_path().parent_path().string(), std::strerror(errno));
+    }
+
+    fs::path to_;
+    int descriptor_ = -1;
+};
+
 /// One archive, read front to back.
 class Archive {
   public:
     Archive(fs::path path, std::uint64_t largest_file)
         : path_(std::move(path)), largest_(largest_file), reader_(archive_read_new(), &archive_read_free) {
+        check_no_html(path_);
         archive_read_support_filter_all(reader_.get());
         archive_read_support_format_all(reader_.get());
         if (archive_read_open_filename(reader_.get(), path_.c_str(), std::size_t{1} << 17) != ARCHIVE_OK)
@@ -79,15 +135,17 @@ class Archive {
             file.in_memory = true;
             file.unreadable.clear();
             file.bytes.clear();
+            file.unpacked.reset();
             file.size = static_cast<std::uint64_t>(std::max<la_int64_t>(archive_entry_size(entry), 0));
             return true;
         }
     }
 
-    /// Reads the member that next() stopped at. A member beyond the size limit is marked unreadable and skipped.
+    /// Reads the member that next() stopped at: into memory, or where it is large onto a disk. One beyond the size limit is marked
+    /// unreadable and skipped.
     void read(RawFile& file) {
-        auto& bytes = file.bytes;
-        bytes.reserve(std::min({file.size, largest_, usual_largest_file}) + text_padding);
+        std::optional<Unpacked> on_disk;
+        file.bytes.reserve(std::min(file.size, least_mapped) + text_padding);
         for (;;) {
             const void* block = nullptr;
             std::size_t size = 0;
@@ -95,16 +153,22 @@ class Archive {
             const int result = archive_read_data_block(reader_.get(), &block, &size, &offset);
             if (result == ARCHIVE_EOF) break;
             if (result < ARCHIVE_WARN) broken();
-            if (static_cast<std::uint64_t>(offset) + size > largest_) {
-                file.unreadable = fmt::format("more than the {} MiB that one clip may have", largest_ >> 20);
-                bytes.clear();
-                break;
+            file.size = static_cast<std::uint64_t>(offset) + size;
+            if (file.size > largest_) {
+                file.unreadable = fmt::format("more than the {} MiB that a file may have", largest_ >> 20);
+                file.bytes.clear();
+                file.unpacked.reset();
+                return;
             }
-            bytes.resize(static_cast<std::size_t>(offset) + size);
-            if (size > 0) std::memcpy(bytes.data() + offset, block, size);
+            if (!on_disk && file.size >= least_mapped) on_disk.emplace(file);
+            if (on_disk) {
+                on_disk->write(block, size, offset);
+            } else {
+                file.bytes.resize(file.size);
+                if (size > 0) std::memcpy(file.bytes.data() + offset, block, size);
+            }
         }
-        file.size = bytes.size();
-        bytes.resize(bytes.size() + text_padding);
+        if (!on_disk) file.bytes.resize(file.size + text_padding);
     }
 
     /// Compressed bytes read so far.
@@ -162,17 +226,21 @@ void look_at(std::vector<Item>& items) {
 
 }  // namespace
 
+fs::path RawFile::on_disk() const {
+    return unpacked ? unpacked->path() / "member" : fs::path(path);
+}
+
 std::string_view RawFile::text(std::vector<char>& scratch, std::uint64_t largest) const {
     if (!unreadable.empty()) throw Error("{}: {}", path, unreadable);
     if (in_memory) return {bytes.data(), bytes.size() - text_padding};
-    return read_text(path, scratch, largest);
+    return read_text(on_disk(), scratch, largest);
 }
 
 RawText TextMemory::read(const RawFile& file) {
     mapped_.reset();
     if (file.in_memory || file.size < least_mapped || file.size > largest_)
         return file.raw(file.text(scratch_, largest_));
-    mapped_.emplace(file.path);
+    mapped_.emplace(file.on_disk());
     return file.raw(mapped_->text(), &*mapped_);
 }
 
@@ -184,6 +252,7 @@ struct Source::State {
     std::size_t at = 0;
     std::uint64_t files = 0, passed = 0;
     std::unique_ptr<Archive> archive;
+    std::function<bool(const RawFile&)> unpacks;  ///< empty: all
 
     /// The path of a file below the folder it was found in; of a file given by itself, as it was given.
     std::string inside(const Item& item) const {
@@ -206,7 +275,7 @@ struct Source::State {
             if (!archive) archive = std::make_unique<Archive>(item.path, largest);
             if (archive->next(extensions, file)) {
                 file.index = files++;
-                if (with_bytes) archive->read(file);
+                if (with_bytes && (!unpacks || unpacks(file))) archive->read(file);
                 return true;
             }
             archive.reset();
@@ -245,6 +314,10 @@ Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_v
 }
 
 Source::~Source() = default;
+
+void Source::unpack_only(std::function<bool(const RawFile&)> wanted) {
+    state_->unpacks = std::move(wanted);
+}
 
 bool Source::next(RawFile& file) {
     return state_->step(file, true);

@@ -1,4 +1,5 @@
 // Raw files wherever they are: nested folders, single files, and archives as downloaded (.zip, .tar.*), read through libarchive.
+// Large members of archives are unpacked to a disk, into the system's folder for temporary files, and are gone when they are read.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/files/scratch.hpp"
 #include "ingest/formats/format.hpp"
 
 namespace actformer::ingest {
@@ -26,14 +28,18 @@ struct RawFile {
     bool in_memory = false;
     std::vector<char> bytes;  ///< in_memory: the text and 64 zero bytes after it
     std::string unreadable;   ///< why it could not be read out of the archive; empty where it could
+    std::shared_ptr<const Scratch> unpacked{};  ///< of a large member of an archive: the folder with its text
 
     /// The text, in `scratch` or in `bytes`, followed by 64 zero bytes. Throws Error where the file cannot be read, or has more than
     /// `largest` bytes.
     std::string_view text(std::vector<char>& scratch, std::uint64_t largest = usual_largest_file) const;
 
+    /// Where its text is on a disk, if it is.
+    std::filesystem::path on_disk() const;
+
     /// As formats see it, with `text` or by its name alone.
     RawText raw(std::string_view text = {}, const MappedFile* mapped = nullptr) const {
-        return {path, stem, text, inside, index, !in_memory, mapped};
+        return {path, stem, text, inside, index, !in_memory && !unpacked, mapped};
     }
 };
 
@@ -61,6 +67,9 @@ class Source {
 
     /// The next file; false at the end. Throws Error naming the archive and member where an archive is broken.
     bool next(RawFile& file);
+
+    /// From now on next() leaves the bytes of archive members behind unless `wanted`.
+    void unpack_only(std::function<bool(const RawFile&)> wanted);
 
     /// Like next, but leaves the bytes of archive members behind: for listing and for skipping.
     bool next_name(RawFile& file);

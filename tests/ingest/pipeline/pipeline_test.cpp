@@ -49,6 +49,7 @@ class LineFormat : public Format {
         datasets_ = {header};
     }
     const std::vector<DatasetHeader>& datasets() const override { return datasets_; }
+    bool surveys_text_of(const RawText& raw) const override { return raw.stem != "by_name"; }
     bool drops_empty_classes() const override { return drops; }
     std::string settings() const override { return "lines"; }
     std::vector<std::string> remarks() const override {
@@ -215,12 +216,13 @@ TEST_F(PipelineOnDevice, SurveysEveryFileBeforeTheFirstIsRead) {
     write_file(dir / "raw/a.lines", "x 1 2\n");
     write_file(dir / "raw/b/refused.lines", "y 1 2\n");
     write_file(dir / "raw/b/c.txt", "w 0 5\n");
+    write_file(dir / "raw/by_name.txt", "v 0 5\n");
     fs::create_symlink(dir / "gone", dir / "raw/dangling.lines");
     LineFormat texts, names(Format::Survey::names), nothing(Format::Survey::nothing);
     EXPECT_EQ(run(texts).left_out, (std::map<std::string, std::uint64_t>{{"broken", 1}, {"dropped", 1}}));
-    EXPECT_EQ(texts.seen, (std::set<std::string>{"a.lines=x 1 2\n", "b/c.txt=w 0 5\n"}));
+    EXPECT_EQ(texts.seen, (std::set<std::string>{"a.lines=x 1 2\n", "b/c.txt=w 0 5\n", "by_name.txt="}));
     run(names, "names");
-    EXPECT_EQ(names.seen, (std::set<std::string>{"a.lines=", "b/c.txt=", "dangling.lines="}));
+    EXPECT_EQ(names.seen, (std::set<std::string>{"a.lines=", "b/c.txt=", "by_name.txt=", "dangling.lines="}));
     run(nothing, "nothing");
     EXPECT_TRUE(nothing.seen.empty());
 }

@@ -72,6 +72,47 @@ TEST_F(Files, ComeOutOfArchives) {
     }
 }
 
+TEST_F(Files, LargeOnesOutOfArchivesAreUnpackedToADiskWhileTheyAreRead) {
+    const std::string large(33 << 20, 'x');
+    write_file(dir / "raw/d/large.skeleton", large);
+    if (run_command("cd " + dir.path().string() + " && tar czf x.tar.gz raw/a/one.SKELETON raw/d").exit != 0)
+        GTEST_SKIP() << "cannot run tar";
+    Source source({dir / "x.tar.gz"}, {".skeleton"});
+    RawFile file;
+    ASSERT_TRUE(source.next(file));
+    EXPECT_TRUE(file.in_memory);
+    ASSERT_TRUE(source.next(file));
+    EXPECT_FALSE(file.in_memory);
+    const auto on_disk = file.on_disk();
+    {
+        TextMemory memory(std::uint64_t{1} << 40);
+        const auto raw = memory.read(file);
+        EXPECT_TRUE(raw.text == large);
+        EXPECT_NE(raw.mapped, nullptr);
+        EXPECT_FALSE(raw.on_disk);
+        EXPECT_TRUE(raw.path.ends_with("x.tar.gz:raw/d/large.skeleton")) << raw.path;
+    }
+    EXPECT_TRUE(fs::exists(on_disk));
+    EXPECT_FALSE(source.next(file));
+    file = {};
+    EXPECT_FALSE(fs::exists(on_disk.parent_path()));
+
+    Source small({dir / "x.tar.gz"}, {".skeleton"}, std::uint64_t{32} << 20);
+    std::vector<char> scratch;
+    ASSERT_TRUE(small.next(file) && small.next(file));
+    EXPECT_THROW(static_cast<void>(file.text(scratch)), actformer::Error);
+}
+
+TEST_F(Files, ComeOutOfArchivesWhereTheyAreWanted) {
+    if (run_command("cd " + dir.path().string() + " && tar czf x.tar.gz raw").exit != 0)
+        GTEST_SKIP() << "cannot run tar";
+    Source source({dir / "x.tar.gz"}, {".skeleton"});
+    source.unpack_only([](const RawFile& file) { return file.stem == "one"; });
+    std::map<std::string, std::size_t> bytes;
+    for (RawFile file; source.next(file);) bytes[file.stem] = file.bytes.size();
+    EXPECT_EQ(bytes, (std::map<std::string, std::size_t>{{"empty", 0}, {"one", 5 + 64}, {"two", 0}}));
+}
+
 TEST_F(Files, ComeInTheOrderOfThePaths) {
     const auto found = contents({dir / "raw/b", dir / "raw/a/one.SKELETON"});
     ASSERT_EQ(found.size(), 2U);
@@ -91,6 +132,9 @@ TEST_F(Files, NamesAreListedWithoutTheirBytes) {
 TEST_F(Files, ThatAreNotThereAreNamed) {
     EXPECT_NE(message({dir / "absent"}).find("absent: no such file or folder"), std::string::npos);
     EXPECT_NE(message({dir / "raw/a/notes.txt"}).find("notes.txt: neither a folder nor an archive"),
+              std::string::npos);
+    write_file(dir / "x.tar.gz", "<!DOCTYPE html><html><body>Quota exceeded</body></html>");
+    EXPECT_NE(message({dir / "x.tar.gz"}).find("x.tar.gz: an HTML page in place of an archive"),
               std::string::npos);
     fs::create_directories(dir / "nothing");
     EXPECT_NE(message({dir / "nothing"}).find("no .skeleton file there"), std::string::npos);
