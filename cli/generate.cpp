@@ -54,7 +54,9 @@ void add_generate(CLI::App& app) {
     command->add_option("--per-class", request.per_class, "Motions of every class")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
-    command->add_option("--classes", request.classes, "Numbers of classes from 1, as in 1,3 (default: all)")
+    command
+        ->add_option("--classes", request.classes,
+                     "Classes by name or by number from 1, as in walk,3 (default: all)")
         ->delimiter(',')
         ->type_name("LIST");
     command->add_option("--seed", request.seed, "Of what is random")->capture_default_str();

@@ -61,6 +61,18 @@ bool asks_for_bench_train(int argc, char** argv) {
     return argc > 2 && std::string_view(argv[1]) == "bench" && std::string_view(argv[2]) == "train";
 }
 
+/// Headings of the help, in the order of a project's life.
+void group_commands(CLI::App& app) {
+    const std::pair<const char*, std::vector<std::string>> groups[] = {
+        {"Data", {"synth", "ingest", "inspect", "export", "render"}},
+        {"Networks", {"train", "model", "generate", "features", "classify"}},
+        {"Results", {"score", "sweep", "report"}},
+        {"This machine", {"devices", "bench"}}};
+    for (auto* command : app.get_subcommands([](CLI::App*) { return true; }))
+        for (const auto& [heading, names] : groups)
+            if (std::ranges::find(names, command->get_name()) != names.end()) command->group(heading);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -72,7 +84,6 @@ int main(int argc, char** argv) {
     using namespace actformer::cli;
     keep_freed_memory();
     return run_program(argc, argv, [](CLI::App& app) {
-        add_devices(app);
         add_synth(app);
         add_ingest(app);
         add_inspect(app);
@@ -84,8 +95,10 @@ int main(int argc, char** argv) {
         add_report(app);
         for (const auto& sub : subprograms)
             if (std::filesystem::exists(path_of(sub))) app.add_subcommand(sub.command, sub.description);
+        add_devices(app);
         add_bench(app);
         if (std::filesystem::exists(path_of(bench_train)))
             app.get_subcommand("bench")->add_subcommand("train", bench_train.description);
+        group_commands(app);
     });
 }

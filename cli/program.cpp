@@ -5,14 +5,59 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
+
+#include "base/text/nearest_word.hpp"
+#include "base/text/printable.hpp"
 
 namespace actformer::cli {
 namespace {
 
-bool knows(const CLI::App& app, const std::string& command) {
-    const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-    return std::any_of(commands.begin(), commands.end(),
-                       [&](const CLI::App* c) { return c->get_name() == command; });
+std::vector<std::string> commands_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const auto* option : app.get_options())
+        for (const auto& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+std::string meant(const std::string& word, const std::vector<std::string>& candidates) {
+    const auto nearest = nearest_word(word, candidates);
+    return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
+}
+
+/// The deepest command that the words name, and how many words that takes, the program's own name first.
+std::pair<const CLI::App*, int> command_named(const CLI::App& app, int argc, char** argv) {
+    const CLI::App* command = &app;
+    int words = 1;
+    for (; words < argc; ++words) {
+        const auto known = commands_of(*command);
+        if (std::ranges::find(known, argv[words]) == known.end()) break;
+        command = command->get_subcommand(argv[words]);
+    }
+    return {command, words};
+}
+
+/// What is wrong with the first word that is neither a command nor an option; empty where the words are known.
+std::string unknown_word(const CLI::App& app, int argc, char** argv) {
+    const auto [command, words] = command_named(app, argc, argv);
+    const auto commands = commands_of(*command);
+    if (words < argc && !commands.empty() && argv[words][0] != '-')
+        return fmt::format("there is no command '{}'{}", printable(argv[words]),
+                           meant(argv[words], commands));
+    const auto options = options_of(*command);
+    for (int i = words; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+        const std::string word(argv[i], std::strcspn(argv[i], "="));
+        if (word.starts_with("--") && std::ranges::find(options, word) == options.end())
+            return fmt::format("there is no option '{}'{}", printable(word), meant(word, options));
+    }
+    return {};
 }
 
 }  // namespace
@@ -30,16 +75,15 @@ int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
     add_commands(app);
-    if (argc > 1 && argv[1][0] != '-' && !knows(app, argv[1])) {
-        fmt::print(stderr, "actformer: there is no command '{}' (see actformer --help)\n", argv[1]);
-        return 1;
-    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
-        fmt::print(stderr, "actformer: {} (see actformer --help)\n", e.what());
+        const auto unknown = unknown_word(app, argc, argv);
+        auto help = app.get_name();
+        for (int i = 1; i < command_named(app, argc, argv).second; ++i) help += fmt::format(" {}", argv[i]);
+        fmt::print(stderr, "actformer: {} (see {} --help)\n", unknown.empty() ? e.what() : unknown, help);
         return 1;
     }
     return 0;

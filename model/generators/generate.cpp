@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/error.hpp"
+#include "ingest/dataset/classes.hpp"
 #include "ingest/dataset/layout.hpp"
 #include "ingest/dataset/motions_file.hpp"
 #include "model/generators/generator_file.hpp"
@@ -21,12 +22,10 @@ std::vector<std::uint32_t> labels_wanted(const GenerateRequest& request, const G
     std::iota(labels.begin(), labels.end(), 0U);
     if (request.classes.empty()) return labels;
     labels.clear();
-    for (const auto wanted : request.classes) {
-        if (wanted < 1 || wanted > names.size())
-            throw Error("{}: there is no class {}; its classes are 1 ('{}') to {} ('{}')",
-                        request.generator.string(), wanted, names.front(), names.size(), names.back());
-        if (std::ranges::count(labels, wanted - 1) > 0) throw Error("--classes: {} is given twice", wanted);
-        labels.push_back(wanted - 1);
+    for (const auto& said : request.classes) {
+        const auto label = ingest::label_called(said, names, request.generator.string());
+        if (std::ranges::count(labels, label) > 0) throw Error("--classes: {} is given twice", said);
+        labels.push_back(label);
     }
     return labels;
 }

@@ -12,7 +12,7 @@ namespace actformer::model {
 struct GenerateRequest {
     std::filesystem::path generator, out;  ///< see load_generator
     std::uint32_t per_class = 100;
-    std::vector<std::uint32_t> classes;  ///< from 1, as the motions are named; empty: all
+    std::vector<std::string> classes;  ///< numbers from 1, or names; empty: all
     std::uint64_t seed = 0;
     std::uint32_t frames = 0;  ///< 0: as many as it was trained on
     std::string device = "cpu";

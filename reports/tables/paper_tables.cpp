@@ -94,6 +94,7 @@ class TableReader {
     void read_columns() {
         const auto columns = needed("columns");
         place_.expect_list(columns, "columns");
+        if (root_["metrics"]) expect_metrics(root_["metrics"]);
         std::vector<std::string> seen, printed;
         for (const auto& node : columns) {
             place_.expect_map(node, "a column");
@@ -112,13 +113,10 @@ class TableReader {
             table_.columns.push_back(std::move(one));
         }
         if (table_.columns.empty()) place_.fail(columns, "a table must have columns");
-        check_metrics(printed);
+        if (root_["metrics"]) check_keys(root_["metrics"], printed);
     }
-    void check_metrics(const std::vector<std::string>& printed) const {
-        const auto metrics = root_["metrics"];
-        if (!metrics) return;
+    void expect_metrics(const Node& metrics) const {
         place_.expect_map(metrics, "metrics");
-        check_keys(metrics, printed);
         for (const auto& item : metrics) {
             place_.expect_map(item.second, "a metric");
             check_keys(item.second, {"heading", "scale", "better"});

@@ -287,9 +287,11 @@ TEST_F(Generate, CarriesWhatItTakesToDraw) {
 }
 
 TEST_F(Generate, RefusesWhatItCannotMake) {
-    expect_refused(generate("--classes 1,4"), {"no class 4", "1 ('c0') to 3 ('c2')"});
+    expect_refused(generate("--classes 1,4"), {"no class 4", "1 to 3 ('c0' .. 'c2')"});
     expect_refused(generate("--classes 0"), {"no class 0"});
     expect_refused(generate("--classes 2,2"), {"2 is given twice"});
+    expect_refused(generate("--classes c1,2"), {"2 is given twice"});
+    expect_refused(generate("--classes c9"), {"no class 'c9'", "did you mean 'c"});
     expect_refused(generate("--frames 17"), {"--frames 17", "at most 16"});
     EXPECT_FALSE(fs::exists(dir / "m.h5"));
     EXPECT_FALSE(fs::exists(dir / "m.h5.partial"));

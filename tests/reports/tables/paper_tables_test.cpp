@@ -94,6 +94,8 @@ TEST(PaperTables, TellFileAndLineOfWhatIsWrong) {
     expect_refused(rows("{}\ncolour: red"), {"line 9", "no key 'colour'", "caption"});
     expect_refused(rows("{}\nmetrics: {fid_mean: {}}"), {"line 9", "no key 'fid_mean'; there are accuracy"});
     expect_refused(rows("{}\nmetrics: {accuracy: {better: best}}"), {"line 9", "nearest to real", "'best'"});
+    expect_refused(rows("{}\nmetrics: 3"), {"line 9", "metrics must be a map"});
+    expect_refused(rows("{}\nmetrics: {accuracy: 3}"), {"line 9", "a metric must be a map"});
     expect_refused(head + "columns: [{dataset: A, metrics: [fid_meen]}]\nrows: {a: {}}\n",
                    {"line 5", "no metric 'fid_meen'", "fid_mean"});
     expect_refused(head + "columns: [{dataset: A}]\nrows: {a: {}}\n", {"line 5", "dataset and metrics"});
