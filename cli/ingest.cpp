@@ -103,15 +103,14 @@ std::string dataset_name(const std::filesystem::path& out) {
     return std::filesystem::absolute(out).lexically_normal().filename().string();
 }
 
-void run(const IngestOptions& options, const ingest::FormatEntry& entry,
-         const ingest::IngestCommand& command) {
+void run(const IngestOptions& options, const ingest::IngestCommand& command) {
     ingest::IngestRequest request;
     request.raw.assign(options.raw.begin(), options.raw.end());
     request.out = options.out;
     while (request.out.has_relative_path() && !request.out.has_filename())
         request.out = request.out.parent_path();
     request.strict = options.strict;
-    request.one_dataset = entry.one_dataset;
+    request.one_dataset = command.one_dataset();
     request.threads = options.threads;
     const auto format = command.open(dataset_name(request.out));
     kernels::Device device(options.device);
@@ -129,7 +128,7 @@ void add_format(CLI::App& ingest, const ingest::FormatEntry& entry) {
     add_common(command, *options);
     for (const auto& option : own->list()) add_own(command, option);
     examples(command, std::string(entry.examples));
-    command->callback([options, own, &entry] { run(*options, entry, *own); });
+    command->callback([options, own] { run(*options, *own); });
 }
 
 }  // namespace

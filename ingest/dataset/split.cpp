@@ -17,14 +17,18 @@ std::vector<std::string> pieces(const std::string& text, char separator) {
     return out;
 }
 
+[[noreturn]] void refuse_field(const Split& split, const Condition& condition,
+                               const std::vector<std::string>& fields) {
+    throw Error("split {}: clips have no field '{}'; they have {}", split.name, condition.field,
+                fmt::join(fields, ", "));
+}
+
 }  // namespace
 
 bool Split::holds(const std::vector<std::string>& fields, const std::vector<std::string>& values) const {
     return std::all_of(conditions.begin(), conditions.end(), [&](const Condition& condition) {
         const auto field = std::find(fields.begin(), fields.end(), condition.field);
-        if (field == fields.end())
-            throw Error("split {}: clips have no field '{}'; they have {}", name, condition.field,
-                        fmt::join(fields, ", "));
+        if (field == fields.end()) refuse_field(*this, condition, fields);
         const auto& value = values.at(static_cast<std::size_t>(field - fields.begin()));
         const bool named =
             std::find(condition.values.begin(), condition.values.end(), value) != condition.values.end();
@@ -54,6 +58,13 @@ Split parse_split(const std::string& text) {
         split.conditions.push_back(std::move(condition));
     }
     return split;
+}
+
+void check_fields(const std::vector<Split>& splits, const std::vector<std::string>& fields) {
+    for (const auto& split : splits)
+        for (const auto& condition : split.conditions)
+            if (std::find(fields.begin(), fields.end(), condition.field) == fields.end())
+                refuse_field(split, condition, fields);
 }
 
 std::string to_text(const std::vector<Split>& splits) {

@@ -25,6 +25,9 @@ struct Split {
 /// Throws Error showing this form.
 Split parse_split(const std::string& text);
 
+/// Throws Error naming the split and the fields there are where a condition asks for a field that is not among `fields`.
+void check_fields(const std::vector<Split>& splits, const std::vector<std::string>& fields);
+
 /// As settings record them: " [xstyle/train style:active,normal]" for each.
 std::string to_text(const std::vector<Split>& splits);
 

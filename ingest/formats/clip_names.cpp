@@ -54,6 +54,7 @@ ClipNames::ClipNames(const std::string& pattern, const fs::path& labels) {
             person != fields_.end()) {
             person_ = static_cast<std::size_t>(person - fields_.begin());
             fields_.erase(person);
+            groups_ = true;
         }
         used_.resize(labels_->rows().size());
     }
@@ -61,6 +62,7 @@ ClipNames::ClipNames(const std::string& pattern, const fs::path& labels) {
     pattern_.emplace(pattern, labels.empty());
     for (std::size_t f = 0; f < pattern_->fields().size(); ++f) {
         const auto& field = pattern_->fields()[f];
+        groups_ |= field == person_field;
         if (field == person_field || std::find(fields_.begin(), fields_.end(), field) != fields_.end())
             continue;
         kept_.push_back(f);

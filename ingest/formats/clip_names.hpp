@@ -30,6 +30,9 @@ class ClipNames {
 
     const std::vector<std::string>& fields() const { return fields_; }
 
+    /// True where files that differ in {person} alone are one clip.
+    bool groups_files() const { return groups_; }
+
     /// All that decides names and labels, as text.
     std::string settings() const;
 
@@ -70,7 +73,7 @@ class ClipNames {
     std::vector<bool> used_;          ///< (rows of the labels)
     std::string first_path_, first_fault_;
     std::uint64_t first_index_ = 0;
-    bool any_noted_ = false;
+    bool any_noted_ = false, groups_ = false;
     std::size_t folders_ = 0;  ///< before a file's name
 };
 

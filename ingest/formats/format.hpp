@@ -179,6 +179,9 @@ class IngestCommand {
     /// The options, each bound to a member of this object.
     virtual std::vector<Option> list() = 0;
 
+    /// True where OUT itself is the dataset; else the datasets lie in it, OUT/NAME.
+    virtual bool one_dataset() const { return true; }
+
     /// `dataset` is the name for a format's only dataset. Throws Error where an option makes no sense.
     virtual std::unique_ptr<Format> open(const std::string& dataset) const = 0;
 };

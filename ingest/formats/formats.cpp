@@ -15,14 +15,14 @@ std::unique_ptr<IngestCommand> make() {
 }
 
 constexpr std::array entries{
-    FormatEntry{"ntu", "NTU RGB+D .skeleton files -> DIR/ntu-1p and DIR/ntu-2p", ntu_examples, false,
+    FormatEntry{"ntu", "NTU RGB+D .skeleton files -> DIR/ntu-1p and DIR/ntu-2p", ntu_examples,
                 make<NtuCommand>},
-    FormatEntry{"bvh", "BVH and ASF/AMC files of one skeleton -> the dataset DIR", bvh_examples, true,
+    FormatEntry{"bvh", "BVH and ASF/AMC files of one skeleton -> the dataset DIR", bvh_examples,
                 make<BvhCommand>},
     FormatEntry{
         "motions",
         "Arrays of joints (.npy, .npz, .csv, .h5) and motions in the public layout -> the dataset DIR",
-        motions_examples, true, make<MotionsCommand>},
+        motions_examples, make<MotionsCommand>},
 };
 
 }  // namespace

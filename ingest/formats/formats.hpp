@@ -14,7 +14,6 @@ struct FormatEntry {
     std::string_view name;      ///< of the command
     std::string_view help;      ///< what it reads and what comes of it
     std::string_view examples;  ///< the end of its --help
-    bool one_dataset = true;    ///< DIR itself is the dataset; else they lie in it, DIR/NAME
     std::unique_ptr<IngestCommand> (*command)() = nullptr;
 };
 

@@ -45,14 +45,6 @@ void check_rate(double fps, const char* what) {
         throw Error("{} frames a second cannot be {}; give 1 to 1000, or 0 for as recorded", fps, what);
 }
 
-void check_splits(const BvhOptions& options, const std::vector<std::string>& fields) {
-    for (const auto& split : options.splits)
-        for (const auto& condition : split.conditions)
-            if (std::find(fields.begin(), fields.end(), condition.field) == fields.end())
-                throw Error("split {}: the clips have no field '{}'; they have {}", split.name,
-                            condition.field, fmt::join(fields, ", "));
-}
-
 }  // namespace
 
 BvhSettings::BvhSettings(const BvhOptions& options, const std::vector<std::string>& fields)
@@ -66,7 +58,7 @@ BvhSettings::BvhSettings(const BvhOptions& options, const std::vector<std::strin
     if (std::set<std::string>(options.classes.begin(), options.classes.end()).size() !=
         options.classes.size())
         throw Error("a class is listed twice: {}", fmt::join(options.classes, ","));
-    check_splits(options, fields);
+    check_fields(options.splits, fields);
     const auto axis = up_named(options.up);
     if (!axis) throw Error("{} is no axis that points up; give y, z, -y, -z, x or -x", in_quotes(options.up));
     up = *axis;

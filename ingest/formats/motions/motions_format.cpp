@@ -244,11 +244,7 @@ void MotionsFormat::settle_names() {
         if (folders_ == deepest) folders_ = 0;  // the very same paths: the first of each name is taken
         header.fields = {"action", "file"};
     }
-    for (const auto& split : options_.splits)
-        for (const auto& condition : split.conditions)
-            if (std::find(header.fields.begin(), header.fields.end(), condition.field) == header.fields.end())
-                throw Error("split {}: clips have no field '{}'; they have {}", split.name, condition.field,
-                            fmt::join(header.fields, ", "));
+    check_fields(options_.splits, header.fields);
     header.splits = options_.splits;
 }
 

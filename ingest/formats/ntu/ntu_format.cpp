@@ -67,6 +67,24 @@ bool goes_on(const std::vector<std::size_t>& kept, const std::vector<std::vector
     });
 }
 
+/// Keeps frames `first` to `last`, the latter not among them, and the bodies seen there.
+void cut(SkeletonFile& file, std::uint32_t first, std::uint32_t last) {
+    constexpr std::size_t numbers = ntu_joints * 3;
+    std::vector<Body> bodies;
+    for (const auto& body : file.bodies) {
+        const auto from = std::lower_bound(body.times.begin(), body.times.end(), first) - body.times.begin(),
+                   to = std::lower_bound(body.times.begin(), body.times.end(), last) - body.times.begin();
+        if (from == to) continue;
+        auto& kept = bodies.emplace_back(Body{body.id, {}, {}});
+        for (auto i = from; i < to; ++i)
+            kept.times.push_back(body.times[static_cast<std::size_t>(i)] - first);
+        kept.limbs.assign(body.limbs.begin() + from * std::ptrdiff_t{numbers},
+                          body.limbs.begin() + to * std::ptrdiff_t{numbers});
+    }
+    file.bodies = std::move(bodies);
+    file.frames = last - first;
+}
+
 std::vector<std::string> numbers(int first, int last, int step = 1) {
     std::vector<std::string> out;
     for (int i = first; i <= last; i += step) out.push_back(std::to_string(i));
@@ -89,13 +107,28 @@ std::vector<Split> ntu_splits() {
             {"xset/test", {{"setup", even, true}}}};
 }
 
-NtuFormat::NtuFormat(NtuOptions options)
-    : options_(std::move(options)), datasets_{family("ntu-1p", 1), family("ntu-2p", 2)} {}
+NtuFormat::NtuFormat(NtuOptions options) : options_(std::move(options)) {
+    if (options_.own)
+        own_.emplace(*options_.own);
+    else
+        datasets_ = {family("ntu-1p", 1), family("ntu-2p", 2)};
+}
+
+void NtuFormat::settle() {
+    if (own_) datasets_ = {own_->settle()};
+}
+
+std::vector<std::string> NtuFormat::remarks() const {
+    auto unused = own_ ? own_->unused_labels() : std::string();
+    if (unused.empty()) return {};
+    return {std::move(unused)};
+}
 
 std::string NtuFormat::settings() const {
-    const auto& [missing, bodies, join_tracks, smoothing] = options_;
+    const auto& [missing, bodies, join_tracks, smoothing, own] = options_;
     auto text =
         fmt::format("ntu: Gaussian smoothing sigma {} radius {} frames", smoothing.sigma, smoothing.radius);
+    if (own_) text += ", " + own_->settings();
     if (bodies == BodyRule::motion) text += ", bodies that move most";
     if (join_tracks) text += ", tracks joined";
     if (missing.empty()) return text;
@@ -110,7 +143,51 @@ std::optional<Rejection> NtuFormat::refuse(const RawText& raw) const {
 }
 
 void NtuFormat::read(const RawText& raw, ClipSink& sink) const {
-    sink.take(parse(raw));
+    auto planned = clips_of(raw);
+    if (auto* rejection = std::get_if<Rejection>(&planned)) return sink.take(std::move(*rejection));
+    auto& clips = std::get<std::vector<Planned>>(planned);
+    auto read = read_skeleton(raw.text);
+    if (auto* rejection = std::get_if<Rejection>(&read)) return sink.take(std::move(*rejection));
+    auto& file = std::get<SkeletonFile>(read);
+    if (clips.size() == 1) return sink.take(make_clip(std::move(clips[0]), std::move(file)));
+    for (auto& clip : clips) {
+        const auto name = clip.name;
+        auto made = make_clip(std::move(clip), file);
+        if (auto* rejection = std::get_if<Rejection>(&made))
+            rejection->reason = fmt::format("clip {}: {}", name, rejection->reason);
+        sink.take(std::move(made));
+    }
+}
+
+std::variant<std::vector<NtuFormat::Planned>, Rejection> NtuFormat::clips_of(const RawText& raw) const {
+    if (own_) return named_clips_of(raw);
+    const auto name = parse_ntu_name(raw.stem);
+    if (!name)
+        return Rejection{Rejection::Kind::broken,
+                         "the name is not SsssCcccPpppRrrrAaaa with an action from 001 to 120; --name or "
+                         "--labels takes other names"};
+    Planned clip{ntu::two_persons(name->action) ? std::size_t{1} : 0,
+                 std::string(raw.stem),
+                 label_of(name->action),
+                 {},
+                 {},
+                 {}};
+    for (const int value : {name->setup, name->camera, name->performer, name->replication, name->action})
+        clip.fields.push_back(std::to_string(value));
+    return std::vector{std::move(clip)};
+}
+
+std::variant<std::vector<NtuFormat::Planned>, Rejection> NtuFormat::named_clips_of(const RawText& raw) const {
+    auto named = own_->clips_of(raw);
+    if (auto* rejection = std::get_if<Rejection>(&named)) return std::move(*rejection);
+    const auto& classes = datasets_[0].classes;
+    std::vector<Planned> out;
+    for (auto& clip : std::get<std::vector<NamedClip>>(named)) {
+        const auto label = std::lower_bound(classes.begin(), classes.end(), clip.action) - classes.begin();
+        out.push_back({0, std::move(clip.name), static_cast<std::uint32_t>(label), std::move(clip.fields),
+                       clip.start, clip.end});
+    }
+    return out;
 }
 
 bool NtuFormat::choose_bodies(SkeletonFile& file, std::size_t persons,
@@ -130,26 +207,25 @@ bool NtuFormat::choose_bodies(SkeletonFile& file, std::size_t persons,
     return true;
 }
 
-ParsedClip NtuFormat::parse(const RawText& raw) const {
-    const auto name = parse_ntu_name(raw.stem);
-    if (!name)
-        return Rejection{Rejection::Kind::broken,
-                         "the name is not SsssCcccPpppRrrrAaaa with an action from 001 to 120"};
-    auto read = read_skeleton(raw.text);
-    if (auto* rejection = std::get_if<Rejection>(&read)) return std::move(*rejection);
-    auto& file = std::get<SkeletonFile>(read);
-
+ParsedClip NtuFormat::make_clip(Planned planned, SkeletonFile file) const {
+    if (planned.start || planned.end) {
+        const auto first = planned.start.value_or(0),
+                   last = std::min(planned.end.value_or(file.frames), file.frames);
+        if (first >= last)
+            return Rejection{Rejection::Kind::broken,
+                             fmt::format("no frame is left of {}: from {} to {}", file.frames, first, last)};
+        cut(file, first, last);
+    }
     auto clip = std::make_unique<NtuClip>();
-    clip->dataset = ntu::two_persons(name->action) ? 1 : 0;
+    clip->dataset = planned.dataset;
     const auto persons = datasets_[clip->dataset].persons,
                seen = static_cast<std::uint32_t>(file.bodies.size());
     if (seen == 0) return Rejection{Rejection::Kind::broken, "no body in any frame"};
     if (!choose_bodies(file, persons, clip->doubts))
         return Rejection{Rejection::Kind::dropped, fmt::format("{} of {} persons seen", seen, persons)};
-    clip->name = raw.stem;
-    clip->label = label_of(name->action);
-    for (const int value : {name->setup, name->camera, name->performer, name->replication, name->action})
-        clip->fields.push_back(std::to_string(value));
+    clip->name = std::move(planned.name);
+    clip->label = planned.label;
+    clip->fields = std::move(planned.fields);
     clip->frames = file.frames;
     clip->bodies = std::move(file.bodies);
     for (auto& body : clip->bodies) body.id = {};  // the text goes away

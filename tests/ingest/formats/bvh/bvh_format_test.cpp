@@ -326,7 +326,7 @@ TEST(BvhFormat, RefusesOptionsThatMakeNoSense) {
     EXPECT_EQ(why([](BvhOptions& o) {
                   o.splits = {{"a/train", {{"stile", {"x"}, false}}}};
               }),
-              "split a/train: the clips have no field 'stile'; they have action, index");
+              "split a/train: clips have no field 'stile'; they have action, index");
     EXPECT_EQ(why([](BvhOptions& o) { o.pattern = "{action}+{n}"; }),
               "no file name fits the pattern '{action}+{n}'; there is 'walk_1'");
 }
