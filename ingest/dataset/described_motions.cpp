@@ -61,16 +61,19 @@ std::optional<std::uint32_t> DescribedMotions::label(const std::string& name) co
 }
 
 std::optional<std::uint32_t> label_in(const std::string& name) {
-    const auto at = name.rfind('A');
-    if (at == std::string::npos) return {};
-    std::uint32_t action = 0;
-    const char *begin = name.data() + at + 1, *end = name.data() + name.size();
-    const auto [rest, error] = std::from_chars(begin, end, action);
-    if (error != std::errc() || rest - begin < 3 || action == 0) return {};
-    if (rest == end) return action - 1;  // S001C001P001R001A001
-    if (at != 0 || *rest != '_' || rest + 1 == end) return {};
-    if (!std::all_of(rest + 1, end, [](char c) { return c >= '0' && c <= '9'; })) return {};
-    return action - 1;  // A001_7
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    const char* const end = name.data() + name.size();
+    for (auto at = name.rfind('A'); at != std::string::npos;
+         at = at == 0 ? name.npos : name.rfind('A', at - 1)) {
+        const char *const digits = name.data() + at + 1, *const rest =
+                                                             std::find_if_not(digits, end, is_digit);
+        if (rest - digits < 3 || (rest != end && is_letter(*rest))) continue;
+        std::uint32_t action = 0;
+        if (std::from_chars(digits, rest, action).ec != std::errc() || action == 0) return {};
+        return action - 1;
+    }
+    return {};
 }
 
 std::vector<float> usual_bone_lengths(const Topology& topology) {

@@ -35,7 +35,8 @@ class DescribedMotions {
     Subjects subjects_;
 };
 
-/// The label, from 0, in a name like S001C001P001R001A001 or A001_7; nothing for other names.
+/// The label, from 0, in a name like S001C001P001R001A001, A001_7 or A001_front: the last A with three digits or more behind it, then
+/// no letter. Nothing for other names.
 std::optional<std::uint32_t> label_in(const std::string& name);
 
 /// (K) lengths in metres for a body whose own are unknown: an adult's for NTU's 25 joints, else 0.2 each; the root's is 0.

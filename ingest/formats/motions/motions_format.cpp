@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/text/first_few.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/dataset/described_motions.hpp"
 #include "ingest/formats/motions/topology_file.hpp"
 #include "ingest/formats/skeletal/up.hpp"
 #include "ingest/smpl/smpl24.hpp"
@@ -78,24 +79,6 @@ std::string end_of(const std::string& path, std::size_t folders) {
     auto name = path.substr(begin == std::string::npos || begin == 0 ? 0 : begin + 1);
     std::replace(name.begin(), name.end(), '/', '_');
     return printable(name);
-}
-
-/// From 0, in a name like A001_7 or S001C001P001R001A001, as the public tools find it; none in other names.
-std::optional<std::uint32_t> label_in(const std::string& name) {
-    const auto is_digit = [&](std::size_t i) { return i < name.size() && name[i] >= '0' && name[i] <= '9'; };
-    for (auto at = name.find('A'); at != std::string::npos; at = name.find('A', at + 1)) {
-        if (!is_digit(at + 1) || !is_digit(at + 2) || !is_digit(at + 3) || is_digit(at + 4)) continue;
-        const int action = std::stoi(name.substr(at + 1, 3));
-        if (action > 0) return static_cast<std::uint32_t>(action - 1);
-    }
-    return {};
-}
-
-/// (joints) metres, for bodies whose own limbs nobody knows.
-std::vector<float> usual_bone_lengths(const Topology& topology) {
-    std::vector<float> out(topology.joints(), 0.2F);
-    out[0] = 0;
-    return out;
 }
 
 /// (joints) metres of offsets (joints, 3) from the parent; 0 for the root.

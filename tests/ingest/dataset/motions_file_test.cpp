@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/hdf5/writer.hpp"
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/described_motions.hpp"
 #include "tests/support/made_dataset.hpp"
 
 using namespace actformer;
@@ -171,6 +172,15 @@ TEST(PublicNames, AreRenumberedByTheLabel) {
     EXPECT_EQ(public_name("A003", 0), "A001");
     for (const char* kept : {"walk_active_001", "A003_7", "A03", "A0003", "B003", "003", ""})
         EXPECT_EQ(public_name(kept, 3), kept);
+}
+
+TEST(PublicNames, TellTheLabel) {
+    for (const char* name : {"A012", "A012_7", "S001C001P001R001A012", "S001C001P001R001A012_body0",
+                             "2b7e_l00_A012", "A003_A012", "A012_front", "A0012", "A012-1"})
+        EXPECT_EQ(label_in(name), 11U) << name;
+    EXPECT_EQ(label_in("A1000_0"), 999U);
+    for (const char* name : {"A000", "A12", "walk_active_001", "A012x", "AA", "A99999999999", ""})
+        EXPECT_EQ(label_in(name), std::nullopt) << name;
 }
 
 TEST(MotionsFile, RefusesALengthThatWrapsAround) {
