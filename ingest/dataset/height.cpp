@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <utility>
+#include <cmath>
 #include <vector>
+
+#include "ingest/dataset/body_parts.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -19,42 +20,80 @@ float quantile(std::vector<float> values, double share) {
     return *at;
 }
 
-using Extent = std::array<std::vector<float>, 3>;  ///< along x, y, z
+using Places = std::vector<std::array<double, 3>>;  ///< (joints)
 
-/// Of the first person, in some frames.
-void add_extent(const Motion& motion, const BodyModel& body, Extent& out) {
+/// The first person's joints in some frames.
+std::vector<Places> some_frames(const Motion& motion, const BodyModel& body) {
     const auto positions = joint_positions(motion, body);
     const std::size_t joints = body.topology.joints(),
                       step = std::max<std::size_t>(1, motion.frames / frames_a_clip);
-    for (std::size_t d = 0; d < 3; ++d) {
-        std::vector<float> lengths;
-        for (std::size_t f = 0; f < motion.frames; f += step) {
-            float least = std::numeric_limits<float>::max(), most = std::numeric_limits<float>::lowest();
-            for (std::size_t j = 0; j < joints; ++j) {
-                const float place = positions[(f * motion.persons * joints + j) * 3 + d];
-                least = std::min(least, place);
-                most = std::max(most, place);
-            }
-            lengths.push_back(most - least);
-        }
-        out[d].push_back(quantile(std::move(lengths), 0.9));
+    std::vector<Places> out;
+    for (std::size_t f = 0; f < motion.frames; f += step) {
+        auto& places = out.emplace_back(joints);
+        for (std::size_t j = 0; j < joints; ++j)
+            for (std::size_t d = 0; d < 3; ++d)
+                places[j][d] = positions[(f * motion.persons * joints + j) * 3 + d];
     }
+    return out;
+}
+
+float extent(const Places& places, std::size_t axis) {
+    const auto [least, most] = std::minmax_element(
+        places.begin(), places.end(), [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
+    return static_cast<float>((*most)[axis] - (*least)[axis]);
+}
+
+/// How far the bodies of some clips reach, and where they point.
+struct Look {
+    std::array<std::vector<float>, 3> lengths;  ///< along x, y, z: one a clip
+    std::array<double, 3> upright{};            ///< sum over the frames
+    std::size_t frames = 0;
+
+    void add(const std::vector<Places>& clip, const BodyParts& parts);
+    std::optional<std::size_t> axis_of_the_trunk() const;
+};
+
+void Look::add(const std::vector<Places>& clip, const BodyParts& parts) {
+    for (std::size_t d = 0; d < 3; ++d) {
+        std::vector<float> of_frames;
+        for (const auto& places : clip) of_frames.push_back(extent(places, d));
+        lengths[d].push_back(quantile(std::move(of_frames), 0.9));
+    }
+    frames += clip.size();
+    for (const auto& places : clip)
+        if (const auto up = upright_direction(places, parts))
+            for (std::size_t d = 0; d < 3; ++d) upright[d] += (*up)[d];
+}
+
+/// The axis along which bodies point on average. Nothing where names do not tell, or they turn this way and that.
+std::optional<std::size_t> Look::axis_of_the_trunk() const {
+    const double whole = std::hypot(upright[0], upright[1], upright[2]);
+    if (!(whole > 0.5 * static_cast<double>(frames))) return {};
+    std::size_t most = 1;
+    for (const std::size_t d : {0, 2})
+        if (std::abs(upright[d]) > std::abs(upright[most])) most = d;
+    return std::abs(upright[1]) < 0.5 * whole ? most : 1;
 }
 
 }  // namespace
 
 std::optional<BodyHeight> body_height(const Dataset& dataset) {
     const std::size_t clips = dataset.clips().size(), looked_at = std::min(clips, most_clips);
-    Extent extents;
+    const auto parts = body_parts(dataset.header().topology.names);
+    Look look;
     for (std::size_t i = 0; i < looked_at; ++i) {
         const std::size_t clip = i * clips / looked_at;
-        if (dataset.clips()[clip].frames > 0) add_extent(dataset.motion(clip), dataset.body(clip), extents);
+        if (dataset.clips()[clip].frames > 0)
+            look.add(some_frames(dataset.motion(clip), dataset.body(clip)), parts);
     }
-    if (extents[0].empty()) return {};
-    BodyHeight height{quantile(extents[1], 0.5), 'y'};
-    for (const auto& [d, axis] : {std::pair{0, 'x'}, {2, 'z'}})
-        if (const double length = quantile(extents[d], 0.5); length > 1.25 * height.metres)
-            height = {length, axis};
+    if (look.lengths[0].empty()) return {};
+    std::array<double, 3> lengths{};
+    for (std::size_t d = 0; d < 3; ++d) lengths[d] = quantile(look.lengths[d], 0.5);
+    constexpr std::array axes{'x', 'y', 'z'};
+    if (const auto axis = look.axis_of_the_trunk()) return BodyHeight{lengths[*axis], axes[*axis]};
+    BodyHeight height{lengths[1], 'y'};
+    for (const std::size_t d : {0, 2})
+        if (lengths[d] > 1.25 * height.metres) height = {lengths[d], axes[d]};
     return height;
 }
 

@@ -13,8 +13,8 @@ struct BodyHeight {
 };
 
 /// From the first joint to the last along an axis: of a clip what a tenth of its frames exceed, of the dataset the median over some
-/// clips spread over it. The axis is y, unless another is a quarter longer. Head and hands reach a little beyond their joints. Nothing
-/// where there is no clip.
+/// clips spread over it. The axis is the one along which spine and head point from the root; where names do not tell them, y, unless
+/// another is a quarter longer. Head and hands reach a little beyond their joints. Nothing where there is no clip.
 std::optional<BodyHeight> body_height(const Dataset& dataset);
 
 }  // namespace actformer::ingest

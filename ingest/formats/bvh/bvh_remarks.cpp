@@ -114,9 +114,10 @@ std::string Doubts::up_remark() const {
         if (file->stance.upright && nearest_up(*file->stance.upright) == *found_up_)
             names.push_back(file->name);
     const bool on_head = axis_of(*found_up_) == axis_of(up_);
-    return fmt::format("bodies {}: from legs to head they point along {} in {} ({}); --up {} turns them",
-                       on_head ? "stand on their heads" : "lie on their sides", name_of(*found_up_),
-                       files_of(names.size(), files_.size()), first_few(names), name_of(*found_up_));
+    return fmt::format(
+        "bodies {}: from the root to the head they point along {} in {} ({}); --up {} turns them",
+        on_head ? "stand on their heads" : "lie on their sides", name_of(*found_up_),
+        files_of(names.size(), files_.size()), first_few(names), name_of(*found_up_));
 }
 
 std::vector<std::string> Doubts::remarks(double scale, bool found) const {

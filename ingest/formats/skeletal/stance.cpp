@@ -1,14 +1,12 @@
 #include "ingest/formats/skeletal/stance.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <initializer_list>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "ingest/dataset/body_parts.hpp"
 #include "ingest/formats/skeletal/pose.hpp"
 
 namespace actformer::ingest {
@@ -29,38 +27,10 @@ double quantile(std::vector<double> values, double share) {
     return values[at];
 }
 
-bool holds_any(const std::string& name, std::initializer_list<std::string_view> words) {
-    std::string lower;
-    for (const char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return std::any_of(words.begin(), words.end(),
-                       [&](std::string_view word) { return lower.find(word) != std::string::npos; });
-}
-
-/// Indices of joints by what their names say of where they are in a body that stands.
-struct Parts {
-    std::vector<std::size_t> above, below;
-
-    Parts(const Recording& recording, std::size_t root) {
-        for (std::size_t j = root + 1; j < recording.joints.size(); ++j) {
-            const auto& name = recording.joints[j].name;
-            if (holds_any(name,
-                          {"foot", "toe", "ankle", "knee", "shin", "calf", "tibia", "femur", "thigh", "leg"}))
-                below.push_back(j);
-            else if (holds_any(name, {"head", "neck", "spine", "chest", "thorax", "torso", "abdomen", "back",
-                                      "collar", "clavicle", "shoulder"}))
-                above.push_back(j);
-        }
-        if (above.empty() && below.empty()) return;
-        if (above.empty()) above.push_back(root);
-        if (below.empty()) below.push_back(root);
-    }
-};
-
-Vector3 centre(std::span<const Vector3> places, const std::vector<std::size_t>& joints) {
-    Vector3 sum{};
-    for (const auto j : joints)
-        for (std::size_t d = 0; d < 3; ++d) sum[d] += places[j][d] / static_cast<double>(joints.size());
-    return sum;
+std::vector<std::string> names_of(const Recording& recording) {
+    std::vector<std::string> names;
+    for (const auto& joint : recording.joints) names.push_back(joint.name);
+    return names;
 }
 
 Vector3 box(std::span<const Vector3> places) {
@@ -73,19 +43,12 @@ Vector3 box(std::span<const Vector3> places) {
     return {most[0] - least[0], most[1] - least[1], most[2] - least[2]};
 }
 
-/// Adds the direction from legs to head in one frame.
-void add_direction(std::span<const Vector3> places, const Parts& parts, double weight, Vector3& sum) {
-    const auto top = centre(places, parts.above), bottom = centre(places, parts.below);
-    const double length = distance(top, bottom);
-    for (std::size_t d = 0; d < 3 && length > 0; ++d) sum[d] += weight * (top[d] - bottom[d]) / length;
-}
-
 }  // namespace
 
 Stance stance_of(const Recording& recording, std::size_t root, std::uint32_t first) {
     first = std::min(first, recording.frames - 1);
     const std::uint32_t left = recording.frames - first, count = std::min(left, looked_at);
-    const Parts parts(recording, root);
+    const auto parts = body_parts(names_of(recording), root);
     std::array<std::vector<double>, 3> extents;
     std::vector<double> sizes;
     Vector3 direction{};
@@ -95,12 +58,13 @@ Stance stance_of(const Recording& recording, std::size_t root, std::uint32_t fir
         const auto sides = box(std::span(places).subspan(root));
         for (std::size_t d = 0; d < 3; ++d) extents[d].push_back(sides[d]);
         sizes.push_back(std::hypot(sides[0], sides[1], sides[2]));
-        if (!parts.above.empty()) add_direction(places, parts, 1.0 / count, direction);
+        if (const auto up = upright_direction(places, parts, root))
+            for (std::size_t d = 0; d < 3; ++d) direction[d] += (*up)[d] / count;
     }
     Stance stance;
     for (std::size_t d = 0; d < 3; ++d) stance.extent[d] = quantile(extents[d], 0.9);
     stance.size = quantile(sizes, 0.5);
-    if (!parts.above.empty()) stance.upright = direction;
+    if (parts.known()) stance.upright = direction;
     return stance;
 }
 

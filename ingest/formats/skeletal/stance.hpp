@@ -13,8 +13,8 @@ struct Stance {
     Vector3 extent{};  ///< of the body along x, y, z: what a tenth of the frames looked at exceed
     double size = 0;   ///< median diagonal of the body, whichever way it lies
 
-    /// Mean direction from the legs (or, where no joint is named like one, the root) to spine, neck and head, of length 1 in every
-    /// frame; shorter where the body turns over. Nothing where no joint is named like one of them.
+    /// Mean of upright_direction, of length 1 in every frame: shorter where the body turns over. Nothing where the joints' names do
+    /// not tell what they are.
     std::optional<Vector3> upright;
 };
 
