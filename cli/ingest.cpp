@@ -41,9 +41,7 @@ void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
                    counted(d.classes, "class"), counted(d.shards, "shard"), counted(d.frames, "frame"),
                    bytes(d.bytes));
     for (const auto& remark : s.remarks) fmt::print("  {}\n", remark);
-    for (const auto& doubt : s.doubts)
-        fmt::print("  {}: {} ({}{})\n", counted(doubt.clips, "clip"), doubt.what,
-                   fmt::join(doubt.first, ", "), doubt.clips > doubt.first.size() ? ", ..." : "");
+    for (const auto& doubt : s.doubts) fmt::print("  {}\n", to_line(doubt));
     for (const auto& [kind, count] : s.left_out)
         fmt::print("  left out: {} {}\n", counted(count, "clip"), left_out_text(kind));
     for (const auto& line : s.first_rejections) fmt::print("    {}\n", line);

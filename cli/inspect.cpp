@@ -48,10 +48,10 @@ void print_text(const ingest::Dataset& dataset, bool list_classes) {
     std::uint64_t size = 0;
     for (const auto& shard : dataset.shards()) size += shard.bytes;
     fmt::print("{} ({})\n", dataset.folder().string(), header.name);
-    fmt::print("  {} of {}, {} with none; {} joints, {}, {:g} frames a second\n",
+    fmt::print("  {} of {}, {} with none; {} joints in {}, {}, {:g} frames a second\n",
                counted(dataset.clips().size(), "clip"), counted(counts.size(), "class"),
                std::count(counts.begin(), counts.end(), 0U), header.topology.joints(),
-               counted(header.persons, "person"), header.fps);
+               header.representation.name(), counted(header.persons, "person"), header.fps);
     fmt::print("  {} ({} to {} a clip, median {}) in {}, {}\n", counted(lengths.total, "frame"),
                lengths.shortest, lengths.longest, lengths.median, counted(dataset.shards().size(), "shard"),
                bytes(size));
@@ -59,6 +59,7 @@ void print_text(const ingest::Dataset& dataset, bool list_classes) {
         fmt::print(
             "  bodies about {:.2f} m tall{}\n", height->metres,
             height->axis == 'y' ? "" : fmt::format(", along {}: they lie, or y is not up", height->axis));
+    for (const auto& remark : dataset.remarks()) fmt::print("  {}\n", remark);
     for (const auto& split : header.splits)
         fmt::print("  split {:<14} {}\n", split.name, counted(dataset.split(split.name).size(), "clip"));
     if (list_classes)
@@ -86,9 +87,11 @@ Json to_json(const ingest::Dataset& dataset) {
             {"persons", header.persons},
             {"joints", header.topology.names},
             {"parents", header.topology.parents},
+            {"representation", header.representation.name()},
             {"fps", header.fps},
             {"height",
              height ? Json{{"metres", height->metres}, {"axis", std::string(1, height->axis)}} : Json()},
+            {"remarks", dataset.remarks()},
             {"shards", dataset.shards().size()},
             {"splits", splits},
             {"classes", classes}};

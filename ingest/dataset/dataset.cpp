@@ -84,6 +84,7 @@ Dataset::Dataset(const fs::path& folder) : folder_(folder) {
     header_ = std::move(file.header);
     fingerprint_ = std::move(file.fingerprint);
     shards_ = std::move(file.shards);
+    remarks_ = std::move(file.remarks);
     for (std::uint32_t shard = 0; shard < shards_.size(); ++shard) {
         auto clips = read_clips(folder / shards_[shard].file, header_, shard);
         if (clips.size() != shards_[shard].clips)

@@ -66,6 +66,7 @@ class Dataset {
     const DatasetHeader& header() const { return header_; }
     const std::string& fingerprint() const { return fingerprint_; }  ///< of the raw data it came from
     const std::vector<ShardEntry>& shards() const { return shards_; }
+    const std::vector<std::string>& remarks() const { return remarks_; }  ///< of the ingest, a line each
     const std::vector<Clip>& clips() const { return clips_; }
 
     /// Indices into clips() of those in split `name`; "all" is every clip. Throws Error naming the splits there are.
@@ -85,6 +86,7 @@ class Dataset {
     DatasetHeader header_;
     std::string fingerprint_;
     std::vector<ShardEntry> shards_;
+    std::vector<std::string> remarks_;
     std::vector<Clip> clips_;
     std::vector<std::size_t> first_clip_;  ///< of each shard
     std::map<std::string, std::size_t> by_name_;

@@ -98,6 +98,7 @@ DatasetFile from_json(const Json& json, const std::string& where) {
     file.settings = json.at("settings").get<std::string>();
     file.fingerprint = json.at("source").get<std::string>();
     for (const auto& shard : json.at("shards")) file.shards.push_back(shard_from_json(shard));
+    file.remarks = json.value("remarks", std::vector<std::string>());
     header.topology.check(where);
     header.rest = rest_from_json(json, header, where);
     header.origin = origin_from_json(json, where);
@@ -153,6 +154,7 @@ std::string to_text(const DatasetFile& file) {
     if (!header.rest.empty()) json["rest"] = rest_to_json(header.rest);
     if (header.origin != DataOrigin{}) json["origin"] = origin_to_json(header.origin);
     if (header.centre_windows) json["centre"] = "window";
+    if (!file.remarks.empty()) json["remarks"] = file.remarks;
     return json.dump(1) + "\n";
 }
 

@@ -19,6 +19,7 @@ struct DatasetFile {
     std::string settings;     ///< how the clips were cleaned
     std::string fingerprint;  ///< of the raw data
     std::vector<ShardEntry> shards;
+    std::vector<std::string> remarks;  ///< what the ingest said of the data, a line each
 };
 
 std::string to_text(const DatasetFile& file);

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const Tranche& tranche) {
     Json left_out = Json::array(), doubts = Json::array(), shards = Json::array();
-    for (const auto& one : tranche.doubts) doubts.push_back({one.doubt, one.clip});
+    for (const auto& one : tranche.doubts) doubts.push_back({one.dataset, one.doubt, one.clip});
     for (const auto& one : tranche.left_out)
         left_out.push_back({one.path, static_cast<int>(one.rejection.kind), one.rejection.reason});
     for (const auto& [dataset, shard] : tranche.shards)
@@ -34,7 +34,8 @@ Json to_json(const Tranche& tranche) {
 Tranche tranche_from(const Json& json) {
     Tranche tranche{json.at("files"), json.at("text_bytes"), json.at("fingerprint"), {}, {}, {},
                     json.at("names"), json.at("labels")};
-    for (const auto& one : json.at("doubts")) tranche.doubts.push_back({one.at(0), one.at(1)});
+    for (const auto& one : json.at("doubts"))
+        tranche.doubts.push_back({one.at(0).get<std::size_t>(), one.at(1), one.at(2)});
     for (const auto& one : json.at("left_out"))
         tranche.left_out.push_back(
             {one.at(0), {static_cast<Rejection::Kind>(one.at(1).get<int>()), one.at(2)}});

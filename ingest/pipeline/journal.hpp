@@ -23,6 +23,7 @@ struct LeftOut {
 
 /// A clip that was kept although something about it is doubtful.
 struct Doubtful {
+    std::size_t dataset = 0;
     std::string doubt, clip;
 };
 

@@ -252,7 +252,7 @@ class Ingest {
     void keep(std::unique_ptr<RawClip> clip) {
         tranche_.names.push_back(clip->name);
         tranche_.labels.emplace(clip->dataset, clip->label);
-        for (const auto& doubt : clip->doubts) tranche_.doubts.push_back({doubt, clip->name});
+        for (const auto& doubt : clip->doubts) tranche_.doubts.push_back({clip->dataset, doubt, clip->name});
         ++clips_done_;
         pending_bytes_ += clip->bytes();
         pending_[clip->dataset].push_back(std::move(clip));
@@ -328,7 +328,13 @@ class Ingest {
             auto file = dataset_file(d, tranches);
             if (file.shards.empty()) continue;
             const auto folder = workplace.data() / folder_of(d);
-            if (format_.drops_empty_classes()) drop_classes(d, file, tranches, folder);
+            file.remarks = format_.remarks();
+            if (format_.drops_empty_classes())
+                if (const auto lost = drop_classes(d, file, tranches, folder); !lost.empty()) {
+                    file.remarks.push_back(lost);
+                    summary_.remarks.push_back(lost);
+                }
+            for (const auto& doubt : doubts_of(tranches, d)) file.remarks.push_back(to_line(doubt));
             write_whole(folder / "dataset.json", to_text(file));
             add_dataset(file, (request_.out / folder_of(d)).lexically_normal(), summary_);
         }
@@ -339,21 +345,21 @@ class Ingest {
         workplace.deliver(request_.out);
     }
 
-    void drop_classes(std::size_t dataset, DatasetFile& file, const std::vector<Tranche>& tranches,
-                      const fs::path& folder) {
+    /// The classes dropped in a line, or nothing where none was.
+    static std::string drop_classes(std::size_t dataset, DatasetFile& file,
+                                    const std::vector<Tranche>& tranches, const fs::path& folder) {
         std::set<std::uint32_t> labels;
         for (const auto& tranche : tranches)
             for (const auto& [owner, label] : tranche.labels)
                 if (owner == dataset) labels.insert(label);
         const auto dropped = drop_empty_classes(file, labels, folder);
-        if (!dropped.empty())
-            summary_.remarks.push_back(fmt::format("no clip was left of {}: {} not among the classes",
-                                                   fmt::join(dropped, ", "),
-                                                   dropped.size() == 1 ? "it is" : "they are"));
+        if (dropped.empty()) return {};
+        return fmt::format("no clip was left of {}: {} not among the classes", fmt::join(dropped, ", "),
+                           dropped.size() == 1 ? "it is" : "they are");
     }
 
     DatasetFile dataset_file(std::size_t dataset, const std::vector<Tranche>& tranches) const {
-        DatasetFile file{format_.datasets()[dataset], format_.settings(), fingerprint_, {}};
+        DatasetFile file{format_.datasets()[dataset], format_.settings(), fingerprint_, {}, {}};
         for (const auto& tranche : tranches)
             for (auto [owner, shard] : tranche.shards) {
                 if (owner != dataset) continue;

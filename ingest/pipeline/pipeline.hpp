@@ -46,7 +46,7 @@ struct IngestSummary {
         std::uint64_t clips = 0;
         std::vector<std::string> first;  ///< names of a few of them
     };
-    std::vector<Doubt> doubts;
+    std::vector<Doubt> doubts;        ///< of all datasets
     bool was_complete = false;        ///< OUT had been finished by an earlier run of the same request
     std::uint64_t resumed_files = 0;  ///< taken over from an interrupted run
 
@@ -55,6 +55,9 @@ struct IngestSummary {
         double walk = 0, read = 0, parse = 0, clean = 0, write = 0, wall = 0;
     } seconds;
 };
+
+/// As in "2 clips: nothing moves (walk_1, walk_7)".
+std::string to_line(const IngestSummary::Doubt& doubt);
 
 /// Throws Error where nothing could be ingested, something wider than a clip is wrong, or OUT is taken.
 IngestSummary ingest(const IngestRequest& request, Format& format, kernels::Device& device);

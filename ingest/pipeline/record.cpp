@@ -65,6 +65,19 @@ void add_dataset(const DatasetFile& file, const fs::path& folder, IngestSummary&
     summary.datasets.push_back(std::move(entry));
 }
 
+std::vector<IngestSummary::Doubt> doubts_of(const std::vector<Tranche>& tranches, std::size_t dataset) {
+    std::vector<IngestSummary::Doubt> doubts;
+    for (const auto& tranche : tranches)
+        for (const auto& one : tranche.doubts)
+            if (one.dataset == dataset) add_doubt(one, doubts);
+    return doubts;
+}
+
+std::string to_line(const IngestSummary::Doubt& doubt) {
+    return fmt::format("{} clip{}: {} ({}{})", doubt.clips, doubt.clips == 1 ? "" : "s", doubt.what,
+                       fmt::join(doubt.first, ", "), doubt.clips > doubt.first.size() ? ", ..." : "");
+}
+
 std::string rejected_csv(const std::vector<Tranche>& tranches) {
     std::string csv = "file,kind,reason\n";
     for (const auto& tranche : tranches)

@@ -22,6 +22,9 @@ struct Origin {
 void add_up(const std::vector<Tranche>& tranches, IngestSummary& summary);
 void add_dataset(const DatasetFile& file, const std::filesystem::path& folder, IngestSummary& summary);
 
+/// The doubts about clips of one dataset.
+std::vector<IngestSummary::Doubt> doubts_of(const std::vector<Tranche>& tranches, std::size_t dataset);
+
 /// A line a file left out: file, kind, reason.
 std::string rejected_csv(const std::vector<Tranche>& tranches);
 

@@ -528,6 +528,30 @@ TEST_F(IngestNtu, PrintsJson) {
     EXPECT_EQ(json["datasets"][0]["clips"], 1);
     const auto inspected = nlohmann::json::parse(run_actformer("inspect --json " + out()).output);
     EXPECT_EQ(inspected["frames"]["total"], 20);
+    EXPECT_EQ(inspected["representation"], "limb");
+    EXPECT_TRUE(inspected["remarks"].empty());
+}
+
+TEST_F(IngestNtu, WhatWasDoubtfulStaysWithTheDatasetItIsOf) {
+    auto body = always_seen("1", moved(50, swing));
+    body.frames[20] = Pose{};
+    clip("S001C001P001R001A023", skeleton_text(50, {body}));
+    clip("S001C001P001R001A055",
+         skeleton_text(50, {always_seen("1", moved(50, swing)), always_seen("2", random_motion(50, 3))}));
+    ASSERT_EQ(ingest().exit, 0);
+    const auto remark =
+        "1 clip: bodies or joints at 0 0 0 or NaN were not seen: filled from the frames around "
+        "(S001C001P001R001A023)";
+    EXPECT_EQ(Dataset(dir / "out/ntu-1p").remarks(), std::vector<std::string>{remark});
+    EXPECT_TRUE(Dataset(dir / "out/ntu-2p").remarks().empty());
+    const auto inspected = run_actformer("inspect " + out() + "/ntu-1p").output;
+    EXPECT_NE(inspected.find(remark), std::string::npos) << inspected;
+    EXPECT_NE(inspected.find("25 joints in limb"), std::string::npos) << inspected;
+    const auto path = dir / "out/ntu-1p/dataset.json";
+    auto json = nlohmann::json::parse(read_file(path));
+    json.erase("remarks");
+    write_file(path, json.dump());
+    EXPECT_TRUE(Dataset(dir / "out/ntu-1p").remarks().empty()) << "as datasets of old have none";
 }
 
 TEST_F(IngestNtu, ExportsOneSplitAndNamesTheSplitsThereAre) {

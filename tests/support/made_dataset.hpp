@@ -45,7 +45,7 @@ inline void write_dataset(const std::filesystem::path& folder, const ingest::Dat
         entry.checksum = contents;
         entry.bytes = bytes.size();
     });
-    write_whole(folder / "dataset.json", ingest::to_text({header, "made by a test", "none", {entry}}));
+    write_whole(folder / "dataset.json", ingest::to_text({header, "made by a test", "none", {entry}, {}}));
 }
 
 /// Three arms of two bones on a root that walks along z and turns about y; arm `label` swings about x. Known in closed form, so that

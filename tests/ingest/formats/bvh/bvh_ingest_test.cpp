@@ -54,6 +54,7 @@ TEST_F(BvhIngest, AClassWhoseFilesAreBrokenIsNone) {
     EXPECT_EQ(summary.left_out.at("broken"), 1U);
     EXPECT_EQ(summary.remarks.back(), "no clip was left of run: it is not among the classes");
     EXPECT_EQ(summary.remarks.front(), "root 'Hips', 5 joints");
+    EXPECT_EQ(dataset.remarks(), summary.remarks);
     EXPECT_EQ(verify_dataset(dir_ / "out").faults, std::vector<std::string>{});
 }
 
@@ -79,6 +80,13 @@ TEST_F(BvhIngest, DoubtsAreCountedWithTheFirstFewClips) {
     EXPECT_NE(summary.doubts[0].what.find("--skip-first 1"), std::string::npos);
     EXPECT_EQ(summary.doubts[0].clips, 5U);
     EXPECT_EQ(summary.doubts[0].first.front(), "walk_1");
+    EXPECT_EQ(
+        Dataset(dir_ / "out").remarks(),
+        (std::vector<std::string>{
+            "root 'Hips', 5 joints",
+            "5 clips: the first frame is a jump, as from a reference pose; --skip-first 1 leaves it out "
+            "(walk_1, walk_2, walk_3, ...)"}))
+        << "the dataset keeps them";
 }
 
 TEST_F(BvhIngest, TheHeightOfADatasetIsSeenInIt) {
@@ -94,6 +102,33 @@ TEST_F(BvhIngest, TheHeightOfADatasetIsSeenInIt) {
     options.up = "z";  // which it is not
     ingest(options);
     EXPECT_EQ(body_height(Dataset(dir_ / "out"))->axis, 'z');
+}
+
+/// Someone whose only leg is ten metres to the side: given in centimetres among metres.
+std::string lopsided() {
+    return "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0.9 0\nCHANNELS 4 Xposition Yposition Zposition Zrotation\n"
+           "JOINT Spine\n{\nOFFSET 0 0.4 0\nJOINT LeftArm\n{\nOFFSET 0.2 0.1 0\n}\n}\n"
+           "JOINT LeftLeg\n{\nOFFSET 10 -0.4 0\nEnd Site\n{\nOFFSET 0 -0.45 0\n}\n}\n}\n"
+           "MOTION\nFrames: 3\nFrame Time: 0.1\n0 0.9 0 1\n0.1 0.9 0 1\n0.2 0.9 0 1\n";
+}
+
+TEST_F(BvhIngest, ABoneToTheSideLaysNobodyDown) {
+    write("walk_1.bvh", lopsided());
+    BvhOptions options;
+    options.pattern = "{action}_{index}";
+    const auto small = ingest(options);
+    ASSERT_EQ(small.remarks.size(), 2U) << fmt::format("{}", fmt::join(small.remarks, "; "));
+    EXPECT_NE(small.remarks[1].find("1.2 cm tall at 0.01 metres a unit; --scale 1 would make it 1.18 m"),
+              std::string::npos)
+        << small.remarks[1];  // 0.5 + 0.85, less 10 sin 1 deg by which the leg is raised
+    std::filesystem::remove_all(dir_ / "out");
+    options.scale = "auto";
+    const auto found = ingest(options);
+    EXPECT_NE(found.remarks[1].find("scale 1: a body is about 1.18 m"), std::string::npos)
+        << found.remarks[1];
+    const auto height = body_height(Dataset(dir_ / "out"));
+    EXPECT_EQ(height->axis, 'y') << "though it is 10 m wide";
+    EXPECT_NEAR(height->metres, 0.73, 0.01);  // from the arm to the leg's top: end sites are none
 }
 
 }  // namespace
