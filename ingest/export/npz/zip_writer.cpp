@@ -58,6 +58,7 @@ void ZipWriter::add(const std::string& name, std::span<const std::string_view> p
     Member member{name, 0, 0, at_};
     auto checksum = crc32_z(0, nullptr, 0);
     for (const auto part : parts) {
+        if (part.empty()) continue;  // zlib begins anew where it is given no memory
         checksum = crc32_z(checksum, reinterpret_cast<const Bytef*>(part.data()), part.size());
         member.size += part.size();
     }
