@@ -78,7 +78,7 @@ class BodyMaker {
         auto side = cross(along, std::fabs(along[2]) < 0.9 ? Point{0, 0, 1} : Point{1, 0, 0});
         const double n = std::hypot(side[0], side[1], side[2]);
         for (auto& v : side) v /= n;
-        const auto depth = cross(side, along);
+        const auto depth = cross(along, side);
 
         const auto first = places_.size() / 3;
         for (std::size_t r = 0; r < rings_; ++r) {

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/smpl/body_file.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -82,15 +83,22 @@ std::vector<float> lengths_of(const std::vector<double>& offsets) {
 }  // namespace
 
 std::vector<Option> RotationalOptions::list() {
-    return {Option("--representation",
-                   "What rotations become: rot6d, or limb or xyz, of the rest skeleton's joints", "REP",
-                   &representation)
-                .one_of({"rot6d", "limb", "xyz"})
-                .with_default()};
+    return {
+        Option("--representation",
+               "What rotations become: rot6d, or limb or xyz, of the rest skeleton's joints", "REP",
+               &representation)
+            .one_of({"rot6d", "limb", "xyz"})
+            .with_default(),
+        Option(
+            "--body",
+            "SMPL's model file, as SMPL_NEUTRAL.pkl or .npz: the rest skeleton is its mean body's, whatever "
+            "shapes the recordings tell (default: a generic skeleton)",
+            "FILE", &body)};
 }
 
 RotationalTarget RotationalOptions::target() const {
-    return {Representation::named(representation, "--representation"), generic_skeleton()};
+    return {Representation::named(representation, "--representation"),
+            body.empty() ? generic_skeleton() : read_smpl_body(body).rest()};
 }
 
 std::string RotationalTarget::text() const {

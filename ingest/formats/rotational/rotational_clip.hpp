@@ -30,10 +30,11 @@ struct RotationalTarget {
 /// The options that `actformer ingest NAME` has for all of this.
 struct RotationalOptions {
     std::string representation = "rot6d";
+    std::string body;  ///< SMPL's model file, whose mean body gives the rest skeleton; empty: the generic one
 
     std::vector<Option> list();  ///< bound to this object
 
-    /// Throws Error where an option makes no sense.
+    /// Throws Error where an option makes no sense, and as read_smpl_body does.
     RotationalTarget target() const;
 };
 

@@ -5,6 +5,8 @@
 
 #include "base/error.hpp"
 #include "ingest/formats/rotational/rotational_clip.hpp"
+#include "tests/support/made_body.hpp"
+#include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
 using namespace actformer::ingest;
@@ -199,4 +201,25 @@ TEST(RotationalTrack, NumbersAreRowsOfTheMatrixAndThePaddedTranslation) {
             for (std::size_t i = 147; i < 150; ++i) EXPECT_EQ(row[i], 0);
         }
     }
+}
+
+// A body twice as tall as the generic one has all heights twice as large, and says whose they are.
+TEST(RotationalOptions, ABodyGivesTheRestSkeleton) {
+    const test::TempDir folder;
+    auto body = test::made_body();
+    auto& places = body["v_template"].values;
+    for (std::size_t i = 1; i < places.size(); i += 3) places[i] *= 2;
+    test::write_body(folder / "tall.npz", body);
+    RotationalOptions options;
+    options.body = (folder / "tall.npz").string();
+    const auto target = options.target();
+    const auto header = target.header("x");
+    EXPECT_EQ(header.origin.skeleton, "tall.npz");
+    const auto generic = generic_skeleton().rest();
+    ASSERT_EQ(header.rest.size(), generic.size());
+    for (std::size_t i = 0; i < generic.size(); ++i)
+        EXPECT_NEAR(header.rest[i], generic[i] * (i % 3 == 1 ? 2.0F : 1.0F), 1e-6);
+    EXPECT_NE(target.text(), RotationalOptions().target().text());
+    options.body = (folder / "nowhere.npz").string();
+    EXPECT_THROW(options.target(), Error);
 }
