@@ -80,12 +80,18 @@ void add_export(CLI::App& app) {
         ->add_option("--bones", request.bones,
                      "Dataset whose skeleton and mean limb lengths motions get, before their file's own")
         ->type_name("DATASET");
+    command
+        ->add_option("--body", request.body,
+                     "SMPL's model file: its mean body as the skin of a .glb, on rotations of SMPL's joints")
+        ->type_name("FILE");
     command->add_flag("--json", options->json, "Print JSON");
-    examples(command,
-             "  actformer export ntu/ntu-1p -o xsub-train.h5 --split xsub/train\n"
-             "  actformer export ntu/ntu-2p -o joints.npz\n"
-             "  actformer export ntu/ntu-2p -o handshake.glb --class \"shaking hands\" --count 1\n"
-             "  actformer export generated.h5 -o walks/ --format bvh --class walk\n");
+    examples(
+        command,
+        "  actformer export ntu/ntu-1p -o xsub-train.h5 --split xsub/train\n"
+        "  actformer export ntu/ntu-2p -o joints.npz\n"
+        "  actformer export ntu/ntu-2p -o handshake.glb --class \"shaking hands\" --count 1\n"
+        "  actformer export generated.h5 -o walks/ --format bvh --class walk\n"
+        "  actformer export generated.h5 -o dance.glb --class dance --count 1 --body SMPL_NEUTRAL.pkl\n");
     command->callback([options] { run(*options); });
 }
 

@@ -61,6 +61,7 @@ class Export {
             context_.subjects.persons = 1;
             keep_lengths_of(request.selection.person);
         }
+        if (!request.body.empty()) take_body();
         if (target.format->skeletons && source.subjects().representation != Representation::rot6d)
             context_.pose = rest_pose(source.read(first));
         summary_.format = target.format->name;
@@ -77,6 +78,15 @@ class Export {
     }
 
   private:
+    void take_body() {
+        const auto& subjects = source_.subjects();
+        if (!target_.format->bodies)
+            throw Error("--body {}: a .{} holds no skin; leave it out, or export a .glb",
+                        request_.body.string(), target_.format->name);
+        check_takes_body(subjects, source_.path().string());
+        context_.body = read_smpl_body(request_.body);
+    }
+
     void into_file(const std::vector<std::size_t>& picks,
                    const std::function<void(std::size_t, std::size_t)>& progress) {
         if (picks.size() > 1 && !target_.format->many_clips)
@@ -111,7 +121,8 @@ class Export {
     }
 
     void add(ExportFile& file, std::size_t clip) {
-        const auto read = with_person(source_.read(clip), request_.selection.person, source_.path().string());
+        auto read = with_person(source_.read(clip), request_.selection.person, source_.path().string());
+        if (context_.body) read.body.rest = context_.body->rest().rest();
         file.add(read);
         ++summary_.clips;
         summary_.frames += read.motion.frames;

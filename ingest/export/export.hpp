@@ -13,6 +13,7 @@ struct ExportRequest {
         out;  ///< a file, whose ending tells the format, or a folder to make and fill with a file a clip
     std::string format;           ///< of a folder's files: the name of an ExportFormat; empty: as `out` ends
     std::filesystem::path bones;  ///< as open_clips takes it
+    std::filesystem::path body;  ///< SMPL's model file, for a skin on rotations of SMPL's joints; empty: none
     Selection selection;
 };
 
@@ -25,8 +26,8 @@ struct ExportSummary {
 };
 
 /// Calls `progress(clips done, of how many)` after every clip. A file appears whole or not at all; one clip is in memory at
-/// a time. Throws Error for a format that there is none of, several clips where one fits a file, and as open_clips and
-/// selected do.
+/// a time. Throws Error for a format that there is none of, several clips where one fits a file, a body where none fits, and as open_clips,
+/// selected and read_smpl_body do.
 ExportSummary export_clips(const ExportRequest& request,
                            const std::function<void(std::size_t, std::size_t)>& progress = {});
 

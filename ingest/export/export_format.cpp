@@ -11,10 +11,11 @@ namespace actformer::ingest {
 
 const std::vector<ExportFormat>& export_formats() {
     static const std::vector<ExportFormat> formats{
-        {"h5", "motions as the networks have them, in the public layout", true, false, open_public_layout},
-        {"npz", "joint positions, for NumPy", true, false, open_npz},
-        {"bvh", "a skeleton that moves, a file a person", false, true, open_bvh},
-        {"glb", "glTF 2.0: all persons of a clip in one animated scene", false, true, open_gltf}};
+        {"h5", "motions as the networks have them, in the public layout", true, false, false,
+         open_public_layout},
+        {"npz", "joint positions, for NumPy", true, false, false, open_npz},
+        {"bvh", "a skeleton that moves, a file a person", false, true, false, open_bvh},
+        {"glb", "glTF 2.0: all persons of a clip in one animated scene", false, true, true, open_gltf}};
     return formats;
 }
 

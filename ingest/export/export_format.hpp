@@ -8,20 +8,23 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "ingest/export/clip_source.hpp"
 #include "ingest/export/skeleton_motion.hpp"
+#include "ingest/smpl/body_file.hpp"
 
 namespace actformer::ingest {
 
 /// What all clips of an export have in common.
 struct ExportContext {
-    Subjects subjects;        ///< of as many persons as are exported
-    std::vector<Point> pose;  ///< the rest pose of skeletons, as skeletons_of takes it
-    std::string source;       ///< fingerprint of what the clips come from
+    Subjects subjects;                  ///< of as many persons as are exported
+    std::vector<Point> pose;            ///< the rest pose of skeletons, as skeletons_of takes it
+    std::string source;                 ///< fingerprint of what the clips come from
+    std::optional<SmplBody> body = {};  ///< of a skin; only of formats that take one
 };
 
 /// A file in the making, or for some formats a file a person. Nothing is left of it without finish().
@@ -38,6 +41,7 @@ struct ExportFormat {
     std::string_view holds;
     bool many_clips;  ///< in one file
     bool skeletons;   ///< needs a rest pose
+    bool bodies;      ///< takes a body model to skin
     std::unique_ptr<ExportFile> (*open)(const std::filesystem::path& path, const ExportContext& context);
 };
 

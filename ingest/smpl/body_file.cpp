@@ -1,5 +1,6 @@
 #include "ingest/smpl/body_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -180,6 +181,14 @@ SmplBody read_smpl_body(const std::filesystem::path& file) {
     } catch (const Error& e) {
         throw Error("{}: {}", file.string(), e.what());
     }
+}
+
+void check_takes_body(const BodyModel& motions, const std::string& where) {
+    if (motions.representation != Representation::rot6d ||
+        !std::ranges::equal(motions.topology.parents, smpl24_parents))
+        throw Error(
+            "{}: motions are {} of {} joints, where a body model takes rot6d of SMPL's {}; leave --body out",
+            where, motions.representation.name(), motions.topology.joints(), smpl_joints);
 }
 
 }  // namespace actformer::ingest

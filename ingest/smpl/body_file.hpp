@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "ingest/dataset/body_model.hpp"
 #include "ingest/smpl/smpl24.hpp"
 #include "kernels/skinning.hpp"
 
@@ -27,5 +28,8 @@ SmplBody read_smpl_body(const std::filesystem::path& file);
 
 /// The same of a file's bytes; `name` is the file's. Errors do not name it.
 SmplBody parse_smpl_body(std::string_view bytes, const std::string& name);
+
+/// Throws Error, beginning with `where`, unless `motions` are rotations of SMPL's joints: they alone turn a body.
+void check_takes_body(const BodyModel& motions, const std::string& where);
 
 }  // namespace actformer::ingest

@@ -10,8 +10,10 @@
 #include "ingest/export/fit_name.hpp"
 #include "ingest/export/skeletons.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/made_body.hpp"
 #include "tests/support/skeleton_motion.hpp"
 #include "tests/support/toy_dataset.hpp"
+#include "tests/support/turning_motion.hpp"
 
 using namespace actformer;
 using namespace actformer::test;
@@ -150,6 +152,12 @@ TEST_F(Export, GlbPassesTheValidator) {
     EXPECT_EQ(run_command(validate + at("pair.glb")).output, "");
     write("one.glb", "--person 2");
     EXPECT_EQ(run_command(validate + at("one.glb")).output, "");
+    write_turning_motion(dir / "walk.h5", 20, 2);
+    write_body(dir / "body.npz", made_body());
+    const auto skinned =
+        run_actformer("export " + at("walk.h5") + " -o " + at("walk.glb") + " --body " + at("body.npz"));
+    EXPECT_EQ(skinned.exit, 0) << skinned.output;
+    EXPECT_EQ(run_command(validate + at("walk.glb")).output, "");
     write_file(dir / "bad.glb", read_file(dir / "one.glb").substr(0, 5000));
     EXPECT_NE(run_command(validate + at("bad.glb")).output, "");
 }

@@ -19,7 +19,8 @@ using Json = nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little, "glTF's numbers are little-endian");
 
 // The format's numbers for what an array is of and what it is for.
-constexpr int float_type = 5126, ushort_type = 5123, vertex_buffer = 34962;
+constexpr int float_type = 5126, ushort_type = 5123, uint_type = 5125, vertex_buffer = 34962,
+              index_buffer = 34963;
 
 /// Colours of persons, as the pictures have them apart: blue, orange, green, red, purple, brown.
 constexpr std::array<std::array<double, 3>, 6> colours{{{0.07, 0.23, 0.56},
@@ -38,7 +39,8 @@ constexpr Kind scalar{"SCALAR", 1}, vec3{"VEC3", 3}, vec4{"VEC4", 4}, mat4{"MAT4
 /// The parts of the JSON and the bytes they point into.
 class Scene {
   public:
-    explicit Scene(const std::string& name) : name_(printable(name)) {
+    /// `figure`, where there is one, is the body of every person.
+    Scene(const std::string& name, const SkinFigure* figure) : name_(printable(name)), figure_(figure) {
         for (const char* list : {"nodes", "meshes", "materials", "skins", "accessors", "bufferViews"})
             json_[list] = Json::array();
     }
@@ -87,28 +89,29 @@ class Scene {
     }
 
     std::size_t add_mesh(const SkeletonMotion& motion, std::size_t person, const std::string& prefix) {
-        const auto figure = stick_figure(motion);
-        std::vector<std::uint16_t> joints(figure.corners() * 4, 0);
-        std::vector<float> weights(figure.corners() * 4, 0);
-        for (std::size_t c = 0; c < figure.corners(); ++c) {
-            joints[c * 4] = figure.joints[c];
-            weights[c * 4] = 1;
-        }
+        // A body that all persons have is written once.
+        if (!figure_ || shared_.empty()) shared_ = primitive(figure_ ? *figure_ : stick_figure(motion));
+        const auto* what = figure_ ? "body" : "bones";
         const auto& colour = colours[person % colours.size()];
-        json_["materials"].push_back({{"name", prefix + "bones"},
+        json_["materials"].push_back({{"name", prefix + what},
                                       {"pbrMetallicRoughness",
                                        {{"baseColorFactor", {colour[0], colour[1], colour[2], 1}},
                                         {"metallicFactor", 0},
                                         {"roughnessFactor", 0.8}}}});
-        Json attributes{{"POSITION", add_array(figure.positions, vec3, true, vertex_buffer)},
-                        {"NORMAL", add_array(figure.normals, vec3, false, vertex_buffer)},
-                        {"JOINTS_0", add_array(joints, vec4, false, vertex_buffer)},
-                        {"WEIGHTS_0", add_array(weights, vec4, false, vertex_buffer)}};
-        json_["meshes"].push_back(
-            {{"name", prefix + "bones"},
-             {"primitives",
-              Json::array({{{"attributes", attributes}, {"material", json_["materials"].size() - 1}}})}});
+        auto own = shared_;
+        own["material"] = json_["materials"].size() - 1;
+        json_["meshes"].push_back({{"name", prefix + what}, {"primitives", Json::array({own})}});
         return json_["meshes"].size() - 1;
+    }
+
+    Json primitive(const SkinFigure& figure) {
+        Json out{{"attributes",
+                  {{"POSITION", add_array(figure.positions, vec3, true, vertex_buffer)},
+                   {"NORMAL", add_array(figure.normals, vec3, false, vertex_buffer)},
+                   {"JOINTS_0", add_array(figure.joints, vec4, false, vertex_buffer)},
+                   {"WEIGHTS_0", add_array(figure.weights, vec4, false, vertex_buffer)}}}};
+        if (!figure.faces.empty()) out["indices"] = add_array(figure.faces, scalar, false, index_buffer);
+        return out;
     }
 
     std::size_t add_skin(const SkeletonMotion& motion, std::size_t first, const std::string& prefix) {
@@ -160,7 +163,9 @@ class Scene {
         if (target != 0) view["target"] = target;
         binary_.append(reinterpret_cast<const char*>(values.data()), size);  // some multiple of 4 bytes each
         Json accessor{{"bufferView", json_["bufferViews"].size()},
-                      {"componentType", std::is_same_v<T, float> ? float_type : ushort_type},
+                      {"componentType", std::is_same_v<T, float>           ? float_type
+                                        : std::is_same_v<T, std::uint16_t> ? ushort_type
+                                                                           : uint_type},
                       {"count", values.size() / kind.numbers},
                       {"type", kind.name}};
         if (with_range) {
@@ -208,6 +213,8 @@ class Scene {
     }
 
     std::string name_;
+    const SkinFigure* figure_;
+    Json shared_;  ///< the primitive of the figure added last
     Json json_ = Json::object(), channels_ = Json::array(), samplers_ = Json::array();
     std::vector<std::size_t> roots_;
     std::string binary_;
@@ -215,8 +222,9 @@ class Scene {
 
 }  // namespace
 
-std::string glb_bytes(std::span<const SkeletonMotion> persons, double fps, const std::string& name) {
-    Scene scene(name);
+std::string glb_bytes(std::span<const SkeletonMotion> persons, double fps, const std::string& name,
+                      const SkinFigure* figure) {
+    Scene scene(name, figure);
     const int times = scene.add_times(persons[0].frames, fps);
     for (std::size_t p = 0; p < persons.size(); ++p)
         scene.add(persons[p], p, persons.size() > 1 ? fmt::format("p{} ", p + 1) : "", times);

@@ -17,19 +17,20 @@ struct Corner {
     std::size_t joint;
 };
 
-void add_triangle(StickFigure& figure, const Corner& a, const Corner& b, const Corner& c) {
+void add_triangle(SkinFigure& figure, const Corner& a, const Corner& b, const Corner& c) {
     const Vector3d normal = (b.at - a.at).cross(c.at - a.at).normalized();
     for (const auto* corner : {&a, &b, &c}) {
         for (int d = 0; d < 3; ++d) {
             figure.positions.push_back(static_cast<float>(corner->at[d]));
             figure.normals.push_back(static_cast<float>(normal[d]));
         }
-        figure.joints.push_back(static_cast<std::uint16_t>(corner->joint));
+        figure.joints.insert(figure.joints.end(), {static_cast<std::uint16_t>(corner->joint), 0, 0, 0});
+        figure.weights.insert(figure.weights.end(), {1, 0, 0, 0});
     }
 }
 
 /// Two pyramids on one square, an eighth of the way from `from` to `to`.
-void add_bone(StickFigure& figure, const Corner& from, const Corner& to) {
+void add_bone(SkinFigure& figure, const Corner& from, const Corner& to) {
     const Vector3d along = to.at - from.at;
     const double thick = std::clamp(0.12 * along.norm(), 0.004, 0.03);
     const Vector3d side = along.unitOrthogonal() * thick, other = along.normalized().cross(side);
@@ -54,10 +55,10 @@ std::vector<Point> rest_places(const SkeletonMotion& motion) {
     return places;
 }
 
-StickFigure stick_figure(const SkeletonMotion& motion) {
+SkinFigure stick_figure(const SkeletonMotion& motion) {
     constexpr double shortest = 1e-4;  // metres: nothing would be seen of it
     const auto places = rest_places(motion);
-    StickFigure figure;
+    SkinFigure figure;
     for (std::size_t j = 1; j < motion.joints(); ++j)
         if (vector(motion.rest[j]).norm() > shortest) {
             const auto parent = static_cast<std::size_t>(motion.topology.parents[j]);
