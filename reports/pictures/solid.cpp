@@ -2,26 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "reports/pictures/samples.hpp"
 
 namespace actformer::reports {
 namespace {
-
-constexpr float nothing = -std::numeric_limits<float>::infinity();
-
-/// The samples over one rectangle of the picture.
-struct Samples {
-    cv::Rect area;  ///< in pixels
-    int per_pixel;
-    cv::Mat nearness;  ///< 32F, `nothing` where there is no limb
-    cv::Mat colour;    ///< 32FC3
-
-    Samples(const cv::Rect& rect, int samples)
-        : area(rect),
-          per_pixel(samples),
-          nearness(rect.height * samples, rect.width * samples, CV_32F, cv::Scalar(nothing)),
-          colour(nearness.size(), CV_32FC3) {}
-};
 
 /// A cone in sample coordinates, and what of it the samples ask again and again.
 struct Sampled {
@@ -73,17 +58,6 @@ void for_samples(const Sampled& cone, float rim, const cv::Size& size, Use use) 
         }
 }
 
-/// Light from the upper left, over the viewer's shoulder; the rim a little darker, which draws the outline.
-cv::Vec3f lit(const cv::Vec3f& colour, float nx, float ny, float nz) {
-    const float towards_light = std::max(0.0F, -0.38F * nx - 0.55F * ny + 0.744F * nz);
-    const float edge = std::min(1.0F, nz / 0.45F);
-    const float shade = (0.70F + 0.34F * towards_light) * (0.80F + 0.20F * edge * (2 - edge));
-    const float gleam = 22 * towards_light * towards_light * towards_light * towards_light;
-    cv::Vec3f out;
-    for (int c = 0; c < 3; ++c) out[c] = std::min(255.0F, colour[c] * shade + gleam);
-    return out;
-}
-
 void fill(Samples& samples, const Cone& cone, const cv::Vec3f& colour) {
     for_samples(Sampled(cone, samples), 0, samples.nearness.size(),
                 [&](int row, int column, float ox, float oy, float distance2, float radius, float axis) {
@@ -92,7 +66,7 @@ void fill(Samples& samples, const Cone& cone, const cv::Vec3f& colour) {
                     if (axis + rise <= nearest) return;
                     nearest = axis + rise;
                     samples.colour.at<cv::Vec3f>(row, column) =
-                        lit(colour, ox / radius, oy / radius, rise / radius);
+                        lit(colour, {ox / radius, oy / radius, rise / radius});
                 });
 }
 
@@ -103,34 +77,9 @@ void part(Samples& samples, const Cone& cone, float rim, const cv::Vec3f& paper)
                 [&](int row, int column, float, float, float distance2, float radius, float axis) {
                     if (distance2 < radius * radius) return;
                     const float behind = samples.nearness.at<float>(row, column);
-                    if (behind == nothing || behind > axis - 1.6F * radius) return;
+                    if (behind == Samples::nothing || behind > axis - 1.6F * radius) return;
                     samples.colour.at<cv::Vec3f>(row, column) = paper;
                 });
-}
-
-void blend(cv::Mat& picture, const Samples& samples) {
-    const int s = samples.per_pixel;
-    const float each = 1.0F / static_cast<float>(s * s);
-    for (int y = 0; y < samples.area.height; ++y)
-        for (int x = 0; x < samples.area.width; ++x) {
-            cv::Vec3f sum(0, 0, 0);
-            int covered = 0;
-            for (int v = y * s; v < y * s + s; ++v) {
-                const float* near_row = samples.nearness.ptr<float>(v);
-                const auto* colour_row = samples.colour.ptr<cv::Vec3f>(v);
-                for (int u = x * s; u < x * s + s; ++u)
-                    if (near_row[u] != nothing) {
-                        sum += colour_row[u];
-                        ++covered;
-                    }
-            }
-            if (covered == 0) continue;
-            auto& pixel = picture.at<cv::Vec3b>(samples.area.y + y, samples.area.x + x);
-            const float rest = 1 - static_cast<float>(covered) * each;
-            for (int c = 0; c < 3; ++c)
-                pixel[c] =
-                    cv::saturate_cast<std::uint8_t>(sum[c] * each + rest * static_cast<float>(pixel[c]));
-        }
 }
 
 cv::Rect area_of(const std::vector<Cone>& cones, const cv::Size& size) {
@@ -169,7 +118,7 @@ void draw_solid(cv::Mat& picture, const std::vector<Cone>& cones, int samples_pe
     }
     const float rim = 1.3F * static_cast<float>(samples_per_pixel);
     for (const auto& c : cones) part(samples, c, rim, paper);
-    blend(picture, samples);
+    samples.blend_into(picture);
 }
 
 }  // namespace actformer::reports

@@ -1,8 +1,8 @@
 #include "ingest/export/gltf/body_figure.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+
+#include "ingest/smpl/vertex_normals.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -26,35 +26,11 @@ void add_weights(std::span<const kernels::Influence> influences, SkinFigure& fig
     }
 }
 
-/// Each vertex's is the sum of its faces', which are as long as twice their areas.
-std::vector<float> normals_of(const SmplBody& body) {
-    const auto& at = body.skin.rest;
-    std::vector<double> sums(at.size(), 0);
-    for (std::size_t f = 0; f < body.faces.size(); f += 3) {
-        const std::array<std::size_t, 3> v{body.faces[f], body.faces[f + 1], body.faces[f + 2]};
-        std::array<double, 3> a{}, b{};
-        for (std::size_t d = 0; d < 3; ++d) {
-            a[d] = double{at[3 * v[1] + d]} - at[3 * v[0] + d];
-            b[d] = double{at[3 * v[2] + d]} - at[3 * v[0] + d];
-        }
-        for (const auto corner : v)
-            for (std::size_t d = 0; d < 3; ++d)
-                sums[3 * corner + d] += a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
-    }
-    std::vector<float> out;
-    for (std::size_t i = 0; i < sums.size(); i += 3) {
-        const double length = std::hypot(sums[i], sums[i + 1], sums[i + 2]);
-        for (std::size_t d = 0; d < 3; ++d)  // up where a vertex has no face
-            out.push_back(static_cast<float>(length > 0 ? sums[i + d] / length : d == 1 ? 1 : 0));
-    }
-    return out;
-}
-
 }  // namespace
 
 SkinFigure body_figure(const SmplBody& body) {
     SkinFigure figure;
-    figure.normals = normals_of(body);
+    figure.normals = vertex_normals(body.skin.rest, body.faces);
     figure.faces = body.faces;
     const auto root = body.rest().offsets;
     for (std::size_t i = 0; i < body.skin.rest.size(); ++i)
