@@ -18,7 +18,7 @@ using reports::JointMotion;
 
 struct Options {
     std::vector<fs::path> inputs;
-    fs::path output;
+    fs::path output, body;
     reports::Wanted wanted;
     std::string view = "three-quarter";
     int size = 0, columns = 8;
@@ -35,9 +35,12 @@ void render(const Options& options) {
 
     layout.across = static_cast<int>(options.wanted.per_class);  // a class a row
 
+    auto wanted = options.wanted;
+    if (!options.body.empty()) wanted.body = std::make_shared<const reports::BodySkin>(options.body);
+
     std::vector<JointMotion> motions;
     for (const auto& path : options.inputs)
-        for (auto& motion : reports::gather(path, options.wanted)) motions.push_back(std::move(motion));
+        for (auto& motion : reports::gather(path, wanted)) motions.push_back(std::move(motion));
     layout.size = options.size > 0                                           ? options.size
                   : kind != reports::PictureKind::png && motions.size() == 1 ? 480
                                                                              : 320;
@@ -86,6 +89,10 @@ void add_render(CLI::App& app) {
         "--bones", options->wanted.bones,
         "Dataset whose skeleton and mean limb lengths a motions file is drawn with, before its own");
     command
+        ->add_option("--body", options->body,
+                     "SMPL's model file: draw its mean body, on rotations of SMPL's joints")
+        ->type_name("FILE");
+    command
         ->add_option("--view", options->view,
                      "front, side, back, top, orbit, three-quarter, or AZIMUTH,ELEVATION in degrees")
         ->capture_default_str();
@@ -105,7 +112,8 @@ void add_render(CLI::App& app) {
              "  actformer render raw/S001C001P001R001A001.skeleton -o raw.png\n"
              "  actformer render data/ntu-2p --class \"shaking hands\" --count 4 -o handshakes.gif\n"
              "  actformer render data/ntu-1p --clip S001C001P001R001A001 --view orbit -o drink.mp4\n"
-             "  actformer render generated.h5 --per-class 4 -o generated.mp4\n");
+             "  actformer render generated.h5 --per-class 4 -o generated.mp4\n"
+             "  actformer render generated.h5 --body SMPL_NEUTRAL.pkl -o bodies.png\n");
     command->callback([options] { render(*options); });
 }
 

@@ -86,22 +86,30 @@ std::vector<std::size_t> picks_of(const ingest::Dataset& dataset, const Wanted& 
     return chosen(of_class(std::move(candidates), wanted, dataset.header().classes, where), wanted, count);
 }
 
-JointMotion motion_of_clip(const ingest::Dataset& dataset, std::size_t clip) {
+/// With the body on it where one is wanted.
+JointMotion motion_of(const ingest::Motion& motion, const ingest::BodyModel& body, double fps,
+                      const std::string& title, const Wanted& wanted) {
+    return wanted.body ? joint_motion(motion, body, fps, title, wanted.body)
+                       : joint_motion(motion, body, fps, title);
+}
+
+JointMotion motion_of_clip(const ingest::Dataset& dataset, std::size_t clip, const Wanted& wanted) {
     const auto& header = dataset.header();
     const auto& entry = dataset.clips()[clip];
-    auto motion = joint_motion(dataset.motion(clip), dataset.body(clip), header.fps,
-                               title_of(entry.name, entry.label, header.classes));
+    auto motion = motion_of(dataset.motion(clip), dataset.body(clip), header.fps,
+                            title_of(entry.name, entry.label, header.classes), wanted);
     motion.label = entry.label;
     return motion;
 }
 
 std::vector<JointMotion> motions_by_name(const std::vector<ingest::Dataset>& datasets, const fs::path& path,
-                                         const std::vector<std::string>& names) {
+                                         const Wanted& wanted) {
     std::vector<JointMotion> motions;
-    for (const auto& name : names) {
+    for (const auto& name : wanted.clips) {
         const auto before = motions.size();
         for (const auto& dataset : datasets)
-            if (const auto clip = dataset.find(name)) motions.push_back(motion_of_clip(dataset, *clip));
+            if (const auto clip = dataset.find(name))
+                motions.push_back(motion_of_clip(dataset, *clip, wanted));
         if (motions.size() == before)
             throw Error("{} has no clip '{}'; its clips are called as in '{}'", path.string(), name,
                         datasets[0].clips().empty() ? "" : datasets[0].clips()[0].name);
@@ -121,7 +129,7 @@ void refuse_class(const std::vector<ingest::Dataset>& datasets, const fs::path& 
 std::vector<JointMotion> motions_of_datasets(const fs::path& path, const Wanted& wanted) {
     const auto folders = ingest::datasets_at(path);
     std::vector<ingest::Dataset> datasets(folders.begin(), folders.end());
-    if (!wanted.clips.empty()) return motions_by_name(datasets, path, wanted.clips);
+    if (!wanted.clips.empty()) return motions_by_name(datasets, path, wanted);
 
     // A class by name may be in one of the datasets of a folder only, as shaking hands is in ntu-2p.
     const auto named = [&](const ingest::Dataset& d) {
@@ -142,7 +150,7 @@ std::vector<JointMotion> motions_of_datasets(const fs::path& path, const Wanted&
         const auto count = wanted.count * (d + 1) / datasets.size() - wanted.count * d / datasets.size();
         if (count == 0) continue;
         for (const auto clip : picks_of(datasets[d], wanted, count))
-            motions.push_back(motion_of_clip(datasets[d], clip));
+            motions.push_back(motion_of_clip(datasets[d], clip, wanted));
     }
     return motions;
 }
@@ -183,7 +191,7 @@ std::vector<JointMotion> motions_of_motions(const fs::path& path, const Wanted& 
         const auto motion = file.motions().read(names[i]);
         const auto label = label_of(names[i], file);
         motions.push_back(
-            joint_motion(motion, subjects, subjects.fps, title_of(names[i], label, subjects.classes)));
+            motion_of(motion, subjects, subjects.fps, title_of(names[i], label, subjects.classes), wanted));
         motions.back().label = label;
     }
     return motions;
@@ -204,7 +212,12 @@ std::vector<JointMotion> gather(const fs::path& path, const Wanted& wanted) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) throw Error("{}: no such file or folder", path.string());
     if (fs::is_directory(path, ignored)) return motions_of_datasets(path, wanted);
-    if (path.extension() == ".skeleton") return {motion_of_raw(path)};
+    if (path.extension() == ".skeleton") {
+        if (wanted.body)
+            throw Error("{}: a raw capture has no rotations to put a body on; leave --body out",
+                        path.string());
+        return {motion_of_raw(path)};
+    }
     return motions_of_motions(path, wanted);
 }
 

@@ -17,6 +17,7 @@ struct Wanted {
     std::size_t per_class = 0;       ///< of every class, in its place; 0 picks `count` in all
     std::filesystem::path
         bones;  ///< dataset whose skeleton and mean limb lengths a motions file is drawn with; empty: its own
+    std::shared_ptr<const BodySkin> body;  ///< drawn on rotations of SMPL's joints; null: limbs are drawn
 };
 
 /// The motions wanted of what lies at `path`. Throws Error naming `path` and what it lacks.

@@ -55,9 +55,19 @@ void check(const JointMotion& motion) {
 
 JointMotion joint_motion(const ingest::Motion& motion, const ingest::BodyModel& body, double fps,
                          std::string title) {
-    JointMotion out{std::move(title), body.topology, motion.persons, motion.frames, fps, {}, {}, {}};
+    JointMotion out{std::move(title), body.topology, motion.persons, motion.frames, fps, {}, {}, {}, {}, {}};
     out.joints = ingest::joint_positions(motion, body);
     check(out);
+    return out;
+}
+
+JointMotion joint_motion(const ingest::Motion& motion, ingest::BodyModel body, double fps, std::string title,
+                         const std::shared_ptr<const BodySkin>& skin) {
+    ingest::check_takes_body(body, title);
+    body.rest = skin->body().rest().rest();
+    auto out = joint_motion(motion, body, fps, std::move(title));
+    out.skin = skin;
+    out.rotations = motion;
     return out;
 }
 
@@ -66,8 +76,16 @@ JointMotion joint_motion(const ingest::SkeletonFile& file, std::string title) {
     const auto persons = static_cast<std::uint32_t>(file.bodies.size()),
                k = static_cast<std::uint32_t>(topology.joints());
     const std::size_t bodies = std::size_t{file.frames} * persons;
-    JointMotion out{
-        std::move(title), topology, persons, file.frames, 30, {}, std::vector<std::uint8_t>(bodies, 0), {}};
+    JointMotion out{std::move(title),
+                    topology,
+                    persons,
+                    file.frames,
+                    30,
+                    {},
+                    std::vector<std::uint8_t>(bodies, 0),
+                    {},
+                    {},
+                    {}};
     out.joints.resize(bodies * k * 3);
     const ingest::BodyModel whole{
         {}, topology, std::vector<float>(k, 1.0F), {}};  // raw limbs have their lengths still

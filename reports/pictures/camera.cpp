@@ -272,11 +272,37 @@ Framing::Framing(const JointMotion& motion, const View& view)
         centres_ = moving;
         box_ = followed;
     }
-    const double room = 0.09 * reach_;  // for the thickness of limbs and head
-    box_.x -= room;
-    box_.y -= room;
-    box_.width += 2 * room;
-    box_.height += 2 * room;
+    box_ = with_room(box_, motion);
+}
+
+/// What stands out beyond the joints: limbs are thick, and so is a head; a skin as far as it does in some frames.
+cv::Rect2d Framing::with_room(cv::Rect2d joints, const JointMotion& motion) const {
+    const double thickness = 0.09 * reach_;
+    double left = thickness, right = thickness, bottom = thickness, top = thickness;
+    constexpr std::size_t frames_asked = 24;
+    for (std::size_t i = 0; motion.skin && i < std::min<std::size_t>(frames_asked, frames_); ++i) {
+        const auto t = i * frames_ / std::min<std::size_t>(frames_asked, frames_);
+        auto camera = oriented(t);
+        camera.place({0, 0, 0}, 1, {0, 0});
+        const auto bounds = [&](const float* points, std::size_t count) {
+            cv::Rect2d box(1e9, 1e9, -2e9, -2e9);
+            for (std::size_t v = 0; v < count; ++v) {
+                const auto seen = camera.project({points[3 * v], points[3 * v + 1], points[3 * v + 2]});
+                const double x0 = std::min(box.x, seen.x), x1 = std::max(box.x + box.width, seen.x),
+                             y0 = std::min(box.y, -seen.y), y1 = std::max(box.y + box.height, -seen.y);
+                box = {x0, y0, x1 - x0, y1 - y0};
+            }
+            return box;
+        };
+        const auto skin = motion.skin->vertices(motion.rotations, t);
+        const auto outer = bounds(skin.data(), skin.size() / 3),
+                   inner = bounds(motion.at(t, 0, 0), motion.persons * motion.topology.joints());
+        left = std::max(left, inner.x - outer.x);
+        bottom = std::max(bottom, inner.y - outer.y);
+        right = std::max(right, outer.br().x - inner.br().x);
+        top = std::max(top, outer.br().y - inner.br().y);
+    }
+    return {joints.x - left, joints.y - bottom, joints.width + left + right, joints.height + bottom + top};
 }
 
 Camera Framing::oriented(std::size_t frame) const {

@@ -36,6 +36,11 @@ class Camera {
         return {offset_.x + scale_ * right_.dot(d), offset_.y - scale_ * up_.dot(d), scale_ * toward_.dot(d)};
     }
 
+    /// A direction of the world: right, down and towards the viewer.
+    cv::Vec3d turned(const cv::Vec3d& direction) const {
+        return {right_.dot(direction), -up_.dot(direction), toward_.dot(direction)};
+    }
+
     /// The point of the plane y = `height` that is seen at `pixel`. Needs a camera above it (rise() > 0).
     cv::Vec3d on_floor(cv::Point2d pixel, double height) const;
 
@@ -77,6 +82,7 @@ class Framing {
   private:
     Camera oriented(std::size_t frame) const;
     cv::Rect2d extent(const JointMotion& motion) const;
+    cv::Rect2d with_room(cv::Rect2d joints, const JointMotion& motion) const;
 
     View view_;
     std::size_t frames_;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "ingest/smpl/vertex_normals.hpp"
+#include "reports/pictures/mesh.hpp"
 #include "reports/pictures/style.hpp"
 
 namespace actformer::reports {
@@ -77,6 +79,19 @@ std::vector<double> joint_radii(const JointMotion& motion, double reach) {
     return radii;
 }
 
+/// (V) how much of a vertex hangs on the body's middle, left and right.
+std::vector<cv::Vec3f> skin_sides(const JointMotion& motion, const std::vector<Side>& sides) {
+    if (!motion.skin) return {};
+    const auto& skin = motion.skin->body().skin;
+    std::vector<cv::Vec3f> out(skin.vertices(), cv::Vec3f(0, 0, 0));
+    for (std::size_t v = 0; v < out.size(); ++v)
+        for (auto i = skin.first[v]; i < skin.first[v + 1]; ++i) {
+            const auto side = sides[skin.influences[i].joint];
+            out[v][side == Side::middle ? 0 : side == Side::left ? 1 : 2] += skin.influences[i].weight;
+        }
+    return out;
+}
+
 double smooth_step(double from, double to, double x) {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
     return t * t * (3 - 2 * t);
@@ -104,7 +119,8 @@ Stage::Stage(const JointMotion& motion, const View& view, int samples)
       sides_(sides_of(motion_.topology)),
       head_(head_joint(motion_.topology)),
       crown_(crown_joint(motion_.topology, head_)),
-      radius_(joint_radii(motion_, framing_.reach())) {
+      radius_(joint_radii(motion_, framing_.reach())),
+      skin_sides_(skin_sides(motion_, sides_)) {
     has_sides_ = std::ranges::count(sides_, Side::left) > 0 && std::ranges::count(sides_, Side::right) > 0;
 }
 
@@ -118,14 +134,9 @@ std::vector<Cone> Stage::limbs(const Camera& camera, std::size_t frame) const {
     std::vector<Cone> cones;
     for (std::size_t p = 0; p < motion_.persons; ++p) {
         if (!motion_.visible(frame, p)) continue;
-        const auto& body = style::body(p);
         const auto radius = [&](std::size_t j) { return std::max(0.8, radius_[p * k + j] * camera.scale()); };
         const auto at = [&](std::size_t j) { return camera.project(point(motion_, frame, p, j)); };
-        const auto colour = [&](std::size_t j) {
-            if (!has_sides_ || sides_[j] == Side::middle)
-                return style::vec(has_sides_ ? body.middle : body.left);
-            return style::vec(sides_[j] == Side::left ? body.left : body.right);
-        };
+        const auto colour = [&](std::size_t j) { return this->colour(p, sides_[j]); };
         for (std::size_t j = 1; j < k; ++j) {
             const auto parent = static_cast<std::size_t>(motion_.topology.parents[j]);
             // A limb is no thicker where it leaves a thicker part (clavicle from the spine) than half its
@@ -152,7 +163,36 @@ void Stage::draw(cv::Mat& cell, std::size_t frame) const {
         draw_floor(cell, eye);
         draw_shadow(cell, eye, frame);
     }
-    draw_solid(cell, limbs(eye, frame), samples_, style::vec(style::paper));
+    motion_.skin ? draw_skin(cell, eye, frame)
+                 : draw_solid(cell, limbs(eye, frame), samples_, style::vec(style::paper));
+}
+
+void Stage::draw_skin(cv::Mat& cell, const Camera& eye, std::size_t frame) const {
+    const auto& body = motion_.skin->body();
+    const auto skin = motion_.skin->vertices(motion_.rotations, frame);
+    const auto numbers = body.skin.rest.size();
+    std::vector<MeshCorner> corners;
+    std::vector<std::uint32_t> faces;
+    for (std::size_t p = 0; p < motion_.persons; ++p) {
+        const auto own = std::span(skin).subspan(p * numbers, numbers);
+        const auto normals = ingest::vertex_normals(own, body.faces);
+        for (const auto v : body.faces) faces.push_back(v + static_cast<std::uint32_t>(corners.size()));
+        const auto middle = colour(p, Side::middle), left = colour(p, Side::left),
+                   right = colour(p, Side::right);
+        for (std::size_t v = 0; v < numbers / 3; ++v) {
+            const auto& sides = skin_sides_[v];
+            const float *at = &own[3 * v], *n = &normals[3 * v];
+            corners.push_back({eye.project({at[0], at[1], at[2]}), eye.turned({n[0], n[1], n[2]}),
+                               sides[0] * middle + sides[1] * left + sides[2] * right});
+        }
+    }
+    draw_mesh(cell, corners, faces, samples_, style::vec(style::paper));
+}
+
+cv::Vec3f Stage::colour(std::size_t person, Side side) const {
+    const auto& body = style::body(person);
+    if (!has_sides_) return style::vec(body.left);
+    return style::vec(side == Side::middle ? body.middle : side == Side::left ? body.left : body.right);
 }
 
 /// A disc of floor under the persons that fades out, with a grid of round spacing.

@@ -29,6 +29,8 @@ class Stage {
 
   private:
     std::vector<Cone> limbs(const Camera& camera, std::size_t frame) const;
+    void draw_skin(cv::Mat& cell, const Camera& camera, std::size_t frame) const;
+    cv::Vec3f colour(std::size_t person, Side side) const;
     void draw_floor(cv::Mat& cell, const Camera& camera) const;
     void draw_shadow(cv::Mat& cell, const Camera& camera, std::size_t frame) const;
 
@@ -36,10 +38,11 @@ class Stage {
     Framing framing_;
     int samples_;
     bool has_sides_ = false;
-    std::vector<Side> sides_;     ///< (K)
-    int head_ = -1;               ///< joint
-    int crown_ = -1;              ///< the head's own tip, where there is one
-    std::vector<double> radius_;  ///< (persons, K) metres, at the joint
+    std::vector<Side> sides_;            ///< (K)
+    int head_ = -1;                      ///< joint
+    int crown_ = -1;                     ///< the head's own tip, where there is one
+    std::vector<double> radius_;         ///< (persons, K) metres, at the joint
+    std::vector<cv::Vec3f> skin_sides_;  ///< (V) shares of middle, left and right; empty without a skin
 };
 
 }  // namespace actformer::reports
