@@ -1,7 +1,9 @@
 // `actformer render` as its users meet it: which motions it takes.
 #include <gtest/gtest.h>
 
+#include "tests/support/made_body.hpp"
 #include "tests/support/toy_dataset.hpp"
+#include "tests/support/turning_motion.hpp"
 
 using namespace actformer::test;
 
@@ -39,4 +41,21 @@ TEST_F(Render, TakesClassesOfAMotionsFileFromTheDatasetBesideIt) {
     EXPECT_EQ(of_file("2").exit, 0);
     expect_refused(of_file("3"), {"no motion of class '3'"});
     expect_refused(of_file("cl1"), {motions, "did you mean 'c1'?"});
+}
+
+TEST_F(Render, ABodyIsDrawnOnRotations) {
+    write_body(dir / "body.npz", made_body());
+    write_turning_motion(dir / "walk.h5");
+    const auto with = [&](const std::string& body, const std::string& picture) {
+        return run_actformer("render " + (dir / "walk.h5").string() + body + " --size 60 --columns 2 -o " +
+                             (dir / picture).string());
+    };
+    ASSERT_EQ(with("", "limbs.png").exit, 0);
+    const auto drawn = with(" --body " + (dir / "body.npz").string(), "body.png");
+    ASSERT_EQ(drawn.exit, 0) << drawn.output;
+    EXPECT_NE(read_file(dir / "limbs.png"), read_file(dir / "body.png"));
+    expect_refused(with(" --body " + (dir / "walk.h5").string(), "none.png"), {"walk.h5", "not a pickle"});
+    EXPECT_FALSE(std::filesystem::exists(dir / "none.png"));
+    expect_refused(render("--body " + (dir / "body.npz").string()),
+                   {"where a body model takes rot6d of SMPL's 24"});
 }
