@@ -66,7 +66,7 @@ std::vector<double> RestJoints::shaped(std::span<const float> betas) const {
 }
 
 /// Sums of 24 vectors, 2 of features and a number of P fill the 32 vector registers of AVX-512; 12 sums the 16 of AVX2.
-Skinning::Tiles Skinning::tiles_of(const Device& device) {
+SkinningTiles skinning_tiles(const Device& device) {
     if (device.info().type != "CPU") return {4, 4, 1, 1, 64, 64};
     const auto width = device.handle().getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
     if (width >= 16) return {16, 4, 2, 32, 32, 1};
@@ -81,11 +81,11 @@ cl::Kernel Skinning::kernel(const char* name) {
                     body_.count(), tiles_.panel, tiles_.vec, tiles_.vertices, tiles_.vectors, tiles_.blocks));
 }
 
-Skinning::Skinning(Device& device, const SkinnedBody& body)
+Skinning::Skinning(Device& device, const SkinnedBody& body, const SkinningTiles& tiles)
     : device_(&device),
       body_((check(body), body.joints)),
       vertex_count_(static_cast<std::uint32_t>(body.vertices())),
-      tiles_(tiles_of(device)),
+      tiles_(tiles),
       blocks_(round_up(body.vertices(), tiles_.vertices) / tiles_.vertices),
       shape_(kernel("shape")),
       chain_(kernel("chain")),

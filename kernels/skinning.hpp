@@ -42,11 +42,25 @@ struct SkinnedBody {
     std::size_t vertices() const { return rest.size() / 3; }
 };
 
+/// Sizes that the kernels are built with (skinning.cl).
+struct SkinningTiles {
+    std::uint32_t vec = 16;      ///< frames in a vector: 1, 2, 4, 8 or 16
+    std::uint32_t vertices = 4;  ///< whose sums a work-item holds
+    std::uint32_t vectors = 2;   ///< of frames, for each of these sums
+    std::uint32_t blocks = 32;   ///< of so many vertices that a work-item does one after the other
+    std::uint32_t panel = 32;    ///< frames that lie together, a multiple of vec * vectors
+    std::uint32_t group = 1;     ///< work-items in a group along frames, at most
+};
+
+/// What does well on devices of this kind.
+SkinningTiles skinning_tiles(const Device& device);
+
 /// One body on one device. Calls may come from one thread at a time.
 class Skinning {
   public:
     /// The mean shape, until shape() is called. Throws Error where the body's arrays do not fit together.
-    Skinning(Device& device, const SkinnedBody& body);
+    Skinning(Device& device, const SkinnedBody& body) : Skinning(device, body, skinning_tiles(device)) {}
+    Skinning(Device& device, const SkinnedBody& body, const SkinningTiles& tiles);
 
     /// Shape parameters that are not given are 0. Throws Error for more than there are shapes.
     void shape(std::span<const float> betas);
@@ -62,16 +76,12 @@ class Skinning {
     const Buffer<float>& vertices() const { return vertices_; }
 
   private:
-    struct Tiles {
-        std::uint32_t vec, vertices, vectors, blocks, panel, group;
-    };
-    static Tiles tiles_of(const Device& device);
     cl::Kernel kernel(const char* name);
 
     Device* device_;
     RestJoints body_;
     std::uint32_t vertex_count_;
-    Tiles tiles_;
+    SkinningTiles tiles_;
     std::uint32_t blocks_;  ///< of vertices
     std::size_t frames_ = 0;
     cl::Kernel shape_, chain_, skin_;

@@ -149,6 +149,27 @@ TEST(Skinning, AgreesWithTheFormulas) {
     }
 }
 
+// As CPUs of narrower vectors and GPUs take them.
+TEST(Skinning, AgreesWithTheFormulasInTilesOfAnySize) {
+    Device device;
+    constexpr std::size_t frames = 70;
+    const auto body = made_body(45, smpl, 9);
+    const auto rotations = made_rotations(frames * smpl.size(), 10);
+    const std::vector<float> translations(3 * frames, 0.25F), betas{1, -1};
+    for (const auto& tiles : {SkinningTiles{8, 2, 2, 64, 16, 1}, SkinningTiles{4, 4, 1, 1, 64, 64},
+                              SkinningTiles{1, 5, 2, 3, 6, 4}}) {
+        Skinning skinning(device, body, tiles);
+        skinning.shape(betas);
+        skinning.pose(rotations, translations);
+        const auto joints = skinning.joints().download(), skin = skinning.vertices().download();
+        for (const std::size_t t : {0U, 33U, 69U}) {
+            const Plain plain(body, betas, &rotations[t * smpl.size() * 9], &translations[3 * t]);
+            expect_near(joints, t, plain.joints);
+            expect_near(skin, t, plain.vertices);
+        }
+    }
+}
+
 TEST(Skinning, TakesAnotherShapeAndFewerFrames) {
     Device device;
     const auto body = made_body(50, smpl, 5);
