@@ -23,8 +23,8 @@ struct IngestOptions {
 
 std::string left_out_text(const std::string& kind) {
     if (kind == "broken") return "broken";
-    if (kind == "dropped") return "that no dataset here is for (too few persons, or another class)";
-    if (kind == "missing") return "in the missing list";
+    if (kind == "dropped") return "that no dataset here is for (too few persons, another class, no label)";
+    if (kind == "missing") return "in the missing list, or not among the files";
     return "of a name that came before";
 }
 

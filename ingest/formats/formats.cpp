@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "ingest/formats/babel/babel_command.hpp"
 #include "ingest/formats/bvh/bvh_command.hpp"
 #include "ingest/formats/motions/motions_command.hpp"
 #include "ingest/formats/ntu/ntu_command.hpp"
@@ -19,6 +20,8 @@ constexpr std::array entries{
                 make<NtuCommand>},
     FormatEntry{"bvh", "BVH and ASF/AMC files of one skeleton -> the dataset DIR", bvh_examples,
                 make<BvhCommand>},
+    FormatEntry{"babel", "AMASS archives, cut into clips by BABEL's labels -> the dataset DIR",
+                babel_examples, make<BabelCommand>},
     FormatEntry{
         "motions",
         "Arrays of joints (.npy, .npz, .csv, .h5) and motions in the public layout -> the dataset DIR",

@@ -1,0 +1,174 @@
+#include "ingest/formats/babel/categories.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "base/text/printable.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+constexpr std::array<std::string_view, 120> names{"walk",
+                                                  "stand",
+                                                  "hand movements",
+                                                  "turn",
+                                                  "interact with/use object",
+                                                  "arm movements",
+                                                  "t pose",
+                                                  "step",
+                                                  "backwards movement",
+                                                  "raising body part",
+                                                  "look",
+                                                  "touch object",
+                                                  "leg movements",
+                                                  "forward movement",
+                                                  "circular movement",
+                                                  "stretch",
+                                                  "jump",
+                                                  "touching body part",
+                                                  "sit",
+                                                  "place something",
+                                                  "take/pick something up",
+                                                  "run",
+                                                  "bend",
+                                                  "throw",
+                                                  "foot movements",
+                                                  "a pose",
+                                                  "stand up",
+                                                  "lowering body part",
+                                                  "sideways movement",
+                                                  "move up/down incline",
+                                                  "action with ball",
+                                                  "kick",
+                                                  "gesture",
+                                                  "head movements",
+                                                  "jog",
+                                                  "grasp object",
+                                                  "waist movements",
+                                                  "lift something",
+                                                  "knee movement",
+                                                  "wave",
+                                                  "move something",
+                                                  "swing body part",
+                                                  "catch",
+                                                  "dance",
+                                                  "lean",
+                                                  "greet",
+                                                  "poses",
+                                                  "touching face",
+                                                  "sports move",
+                                                  "exercise/training",
+                                                  "clean something",
+                                                  "punch",
+                                                  "squat",
+                                                  "scratch",
+                                                  "hop",
+                                                  "play sport",
+                                                  "stumble",
+                                                  "crossing limbs",
+                                                  "perform",
+                                                  "martial art",
+                                                  "balance",
+                                                  "kneel",
+                                                  "shake",
+                                                  "grab body part",
+                                                  "clap",
+                                                  "crouch",
+                                                  "spin",
+                                                  "upper body movements",
+                                                  "knock",
+                                                  "adjust",
+                                                  "crawl",
+                                                  "twist",
+                                                  "move back to original position",
+                                                  "bow",
+                                                  "hit",
+                                                  "touch ground",
+                                                  "shoulder movements",
+                                                  "telephone call",
+                                                  "grab person",
+                                                  "play instrument",
+                                                  "tap",
+                                                  "spread",
+                                                  "skip",
+                                                  "rolling movement",
+                                                  "jump rope",
+                                                  "play catch",
+                                                  "drink",
+                                                  "evade",
+                                                  "support",
+                                                  "point",
+                                                  "side to side movement",
+                                                  "stop",
+                                                  "protect",
+                                                  "wrist movements",
+                                                  "stances",
+                                                  "wait",
+                                                  "shuffle",
+                                                  "lunge",
+                                                  "communicate (vocalise)",
+                                                  "jumping jacks",
+                                                  "rub",
+                                                  "dribble",
+                                                  "swim",
+                                                  "sneak",
+                                                  "to lower a body part",
+                                                  "misc. abstract action",
+                                                  "mix",
+                                                  "limp",
+                                                  "sway",
+                                                  "slide",
+                                                  "cartwheel",
+                                                  "press something",
+                                                  "shrug",
+                                                  "open something",
+                                                  "leap",
+                                                  "trip",
+                                                  "golf",
+                                                  "move misc. body part",
+                                                  "get injured",
+                                                  "sudden movement"};
+
+constexpr std::uint64_t largest_file = std::uint64_t{1} << 20;
+
+std::vector<std::string> pieces(std::string_view text, std::string_view separators) {
+    constexpr std::string_view blanks = " \t\r";
+    std::vector<std::string> out;
+    while (!text.empty()) {
+        const auto end = std::min(text.find_first_of(separators), text.size());
+        auto piece = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        piece.remove_prefix(std::min(piece.find_first_not_of(blanks), piece.size()));
+        piece = piece.substr(0, piece.find_last_not_of(blanks) + 1);
+        if (!piece.empty()) out.push_back(printable(piece));
+    }
+    return out;
+}
+
+}  // namespace
+
+std::span<const std::string_view> babel_categories() {
+    return names;
+}
+
+std::vector<std::string> categories_called(const std::string& said) {
+    for (const std::size_t count : {std::size_t{60}, names.size()})
+        if (said == std::to_string(count))
+            return {names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count)};
+    std::error_code error;
+    const bool file = std::filesystem::is_regular_file(said, error);
+    std::vector<char> scratch;
+    const auto out = file ? pieces(read_text(said, scratch, largest_file), "\n") : pieces(said, ",");
+    const auto where = file ? said : "--categories";
+    if (out.empty())
+        throw Error("{}: no category named; give 120, 60, names with commas between, or a file of names",
+                    where);
+    for (auto one = out.begin(); one != out.end(); ++one)
+        if (std::find(out.begin(), one, *one) != one) throw Error("{}: '{}' comes twice", where, *one);
+    return out;
+}
+
+}  // namespace actformer::ingest
