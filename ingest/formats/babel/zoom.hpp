@@ -1,7 +1,8 @@
 // Resampling as the public tools of ActFormer do it: scipy.ndimage.zoom along time, through the rotation vectors' own numbers.
 //
 // A cubic spline through the samples, whose first and last frame become the new first and last, so that the rate is not quite the one
-// asked for. Vectors that flip from pi to -pi overshoot in between. For comparison with published figures alone.
+// asked for. Vectors that flip from pi to -pi overshoot in between. Where rounding puts the last place a hair behind the last frame,
+// SciPy makes that frame 0; here it is the last frame. For comparison with published figures alone.
 #pragma once
 
 #include <cstdint>
