@@ -4,6 +4,7 @@
 
 #include "ingest/formats/babel/babel_command.hpp"
 #include "ingest/formats/bvh/bvh_command.hpp"
+#include "ingest/formats/gta/gta_command.hpp"
 #include "ingest/formats/motions/motions_command.hpp"
 #include "ingest/formats/ntu/ntu_command.hpp"
 
@@ -22,6 +23,8 @@ constexpr std::array entries{
                 make<BvhCommand>},
     FormatEntry{"babel", "AMASS archives, cut into clips by BABEL's labels -> the dataset DIR",
                 babel_examples, make<BabelCommand>},
+    FormatEntry{"gta", "GTA Combat's .h5 files and JTA's annotations -> DIR/gta-2p, DIR/gta-3p, ...",
+                gta_examples, make<GtaCommand>},
     FormatEntry{
         "motions",
         "Arrays of joints (.npy, .npz, .csv, .h5) and motions in the public layout -> the dataset DIR",

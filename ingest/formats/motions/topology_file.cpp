@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/formats/gta/gta_skeleton.hpp"
 #include "ingest/smpl/smpl24.hpp"
 
 namespace actformer::ingest {
@@ -34,12 +35,7 @@ const std::vector<Known>& known() {
            "thorax", "neck", "head", "left shoulder", "left elbow", "left wrist", "right shoulder",
            "right elbow", "right wrist"},
           {-1, 0, 1, 2, 0, 4, 5, 0, 7, 8, 9, 8, 11, 12, 8, 14, 15}}},
-        {"gta22",
-         {{"pelvis",      "head center",   "neck",          "right clavicle", "right shoulder", "right elbow",
-           "right wrist", "left clavicle", "left shoulder", "left elbow",     "left wrist",     "spine0",
-           "spine1",      "spine2",        "spine3",        "head top",       "right hip",      "right knee",
-           "right ankle", "left hip",      "left knee",     "left ankle"},
-          {-1, 2, 11, 2, 3, 4, 5, 2, 7, 8, 9, 12, 13, 14, 0, 1, 0, 16, 17, 0, 19, 20}}}};
+        {"gta22", gta22()}};
     return all;
 }
 

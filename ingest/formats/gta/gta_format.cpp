@@ -1,0 +1,256 @@
+#include "ingest/formats/gta/gta_format.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/hdf5/reader.hpp"
+#include "base/text/printable.hpp"
+#include "ingest/formats/gta/jta_file.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+constexpr double longest_limb = 1.01;           // of a unit vector
+constexpr double farthest_apart = 4;            // metres between persons who fight
+constexpr std::uint64_t most_bodies = 1 << 18;  // of a clip, over all frames
+constexpr std::size_t body = gta_joints * 3;
+
+struct GtaClip : RawClip {
+    /// A person: a limb for every joint, in metres, where the person was seen.
+    struct Person {
+        std::vector<float> times;
+        std::vector<float> limbs;  ///< (times, 22, 3): the root's position, and vectors from the parent
+    };
+    std::uint32_t frames = 0;
+    std::vector<Person> persons;
+    bool usual_lengths = false;  ///< its limbs were told by their directions alone
+
+    std::size_t bytes() const override {
+        std::size_t all = sizeof *this;
+        for (const auto& person : persons) all += sizeof(float) * (person.times.size() + person.limbs.size());
+        return all;
+    }
+};
+
+using Place = std::array<double, 3>;
+
+Rejection broken(std::string reason) {
+    return {Rejection::Kind::broken, std::move(reason)};
+}
+
+/// z up to y up.
+Place upright(const Place& p) {
+    return {p[0], p[2], -p[1]};
+}
+
+/// How far persons are apart on the floor, on average over frames and pairs; 0 for one.
+double mean_distance(const GtaClip& clip) {
+    double sum = 0;
+    std::size_t pairs = 0;
+    for (std::size_t a = 0; a < clip.persons.size(); ++a)
+        for (std::size_t b = 0; b < a; ++b)
+            for (std::size_t t = 0; t < clip.frames; ++t, ++pairs) {
+                const float *p = &clip.persons[a].limbs[t * body], *q = &clip.persons[b].limbs[t * body];
+                sum += std::hypot(p[0] - q[0], p[2] - q[2]);
+            }
+    return pairs > 0 ? sum / static_cast<double>(pairs) : 0;
+}
+
+std::vector<float> told_lengths(const std::string& path) {
+    if (path.empty()) return gta_bone_lengths();
+    const hdf5::Reader file(path);
+    auto lengths = file.read<float>("avglength");
+    const bool sound = lengths.size() == gta_joints &&
+                       std::all_of(lengths.begin(), lengths.end(), [](float x) { return x >= 0 && x < 10; });
+    if (!sound) throw Error("{}: 'avglength' is no {} lengths in metres", path, gta_joints);
+    lengths[0] = 0;
+    return lengths;
+}
+
+/// A person of JTA as limbs of GTA Combat, y up.
+GtaClip::Person person_of(const JtaPerson& seen) {
+    GtaClip::Person out;
+    for (const auto time : seen.times) out.times.push_back(static_cast<float>(time));
+    out.limbs.reserve(seen.positions.size());
+    for (std::size_t i = 0; i < seen.times.size(); ++i) {
+        std::array<Place, gta_joints> at{};
+        for (std::size_t j = 0; j < gta_joints; ++j) {
+            const double* p = &seen.positions[i * body + 3 * j];
+            at[gta_joint_of_jta(j)] = {p[0], -p[1], -p[2]};
+        }
+        for (std::size_t j = 0; j < gta_joints; ++j)
+            for (std::size_t d = 0; d < 3; ++d)
+                out.limbs.push_back(static_cast<float>(
+                    at[j][d] - (j == 0 ? 0 : at[static_cast<std::size_t>(gta22_parents[j])][d])));
+    }
+    return out;
+}
+
+}  // namespace
+
+GtaFormat::GtaFormat(GtaOptions options)
+    : options_(std::move(options)), lengths_(told_lengths(options_.lengths)) {
+    if (!(options_.root_scale > 1e-3 && options_.root_scale < 1e3))
+        throw Error("a root scale of {}; the public files need 5, files whose roots were not divided 1",
+                    options_.root_scale);
+    if (options_.persons > most_persons)
+        throw Error("{} persons; give 1 to {}", options_.persons, most_persons);
+    for (std::uint32_t persons = 1; persons <= most_persons; ++persons) {
+        DatasetHeader header;
+        header.name = fmt::format("gta-{}p", persons);
+        header.topology = gta22();
+        header.origin.kind = DataOrigin::Kind::synthetic;
+        header.persons = persons;
+        header.classes = {"combat"};
+        header.fields = {"file"};
+        datasets_.push_back(std::move(header));
+    }
+}
+
+std::string GtaFormat::settings() const {
+    return fmt::format(
+        "gta: roots' x and y times {}, limbs of {} m, {}", options_.root_scale, fmt::join(lengths_, " "),
+        options_.persons > 0 ? fmt::format("the {} persons seen most", options_.persons) : "all persons");
+}
+
+void GtaFormat::read(const RawText& raw, ClipSink& sink) const {
+    const auto take = [&](ParsedClip clip) {
+        if (auto* whole = std::get_if<std::unique_ptr<RawClip>>(&clip))
+            (*whole)->fields = {printable(raw.stem)};
+        sink.take(std::move(clip));
+    };
+    if (raw.path.ends_with("json") || raw.path.ends_with("JSON")) return take(jta_clip(raw));
+    std::optional<hdf5::Reader> file;
+    if (raw.on_disk)
+        file.emplace(std::filesystem::path(raw.path));
+    else
+        file.emplace(raw.text, std::string(raw.path));
+    if (file->has("avglength"))
+        return take(Rejection{Rejection::Kind::dropped,
+                              "lengths of limbs, and no motion: --lengths FILE takes them"});
+    for (const auto& name : file->names()) {
+        if (!file->is_array(name)) continue;
+        auto clip = public_clip(*file, name);
+        if (auto* whole = std::get_if<std::unique_ptr<RawClip>>(&clip))
+            (*whole)->name = fmt::format("{}_{}", printable(raw.stem), printable(name));
+        else
+            std::get<Rejection>(clip).reason.insert(0, fmt::format("'{}': ", printable(name)));
+        take(std::move(clip));
+    }
+}
+
+ParsedClip GtaFormat::public_clip(const hdf5::Reader& file, const std::string& name) const {
+    const auto shape = file.shape(name);
+    if (shape.size() != 3 || shape[0] == 0 || shape[0] % 3 != 0 || shape[1] != gta_joints || shape[2] == 0)
+        return broken(
+            fmt::format("({}) is not (3 * persons, {}, frames)", fmt::join(shape, ", "), gta_joints));
+    const std::uint64_t persons = shape[0] / 3, frames = shape[2];
+    if (persons > most_persons || frames * persons > most_bodies)
+        return broken(fmt::format("{} persons in {} frames, more than a clip may have", persons, frames));
+    const auto values = file.read<float>(name);
+    if (!std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); }))
+        return broken("a number that is not finite");
+    auto clip = std::make_unique<GtaClip>();
+    clip->dataset = persons - 1;
+    clip->frames = static_cast<std::uint32_t>(frames);
+    clip->usual_lengths = true;
+    clip->persons.resize(persons);
+    for (std::size_t p = 0; p < persons; ++p)
+        for (std::size_t t = 0; t < frames; ++t) {
+            auto& person = clip->persons[p];
+            person.times.push_back(static_cast<float>(t));
+            for (std::size_t j = 0; j < gta_joints; ++j) {
+                Place v;
+                for (std::size_t d = 0; d < 3; ++d)
+                    v[d] = values[((3 * p + d) * gta_joints + j) * frames + t];
+                const double length = std::hypot(v[0], v[1], v[2]);
+                if (j > 0 && length > longest_limb)
+                    return broken(fmt::format(
+                        "frame {}: joint {} is no unit vector: joint positions? actformer ingest motions "
+                        "--topology gta22 takes them",
+                        t, j));
+                const double across = j == 0       ? options_.root_scale
+                                      : length > 0 ? lengths_[j] / length
+                                                   : 0,
+                             up = j == 0 ? 1 : across;
+                for (const auto x : upright({v[0] * across, v[1] * across, v[2] * up}))
+                    person.limbs.push_back(static_cast<float>(x));
+            }
+        }
+    if (mean_distance(*clip) > farthest_apart)
+        clip->doubts.emplace_back(
+            "persons over 4 m apart on average: if the file's roots were not divided by 5, say --root-scale "
+            "1");
+    return clip;
+}
+
+ParsedClip GtaFormat::jta_clip(const RawText& raw) const {
+    auto parsed = read_jta(raw.text);
+    if (auto* rejection = std::get_if<Rejection>(&parsed)) return std::move(*rejection);
+    auto& file = std::get<JtaFile>(parsed);
+    auto& persons = file.persons;
+    if (persons.empty()) return broken("no person with all of JTA's 22 joints in any frame");
+    if (options_.persons > 0) {
+        if (persons.size() < options_.persons)
+            return Rejection{Rejection::Kind::dropped,
+                             fmt::format("{} of {} persons seen", persons.size(), options_.persons)};
+        std::stable_sort(persons.begin(), persons.end(),
+                         [](const auto& a, const auto& b) { return a.times.size() > b.times.size(); });
+        persons.resize(options_.persons);
+    }
+    if (persons.size() > most_persons)
+        return Rejection{Rejection::Kind::dropped,
+                         fmt::format("{} persons, more than {}: --persons P keeps those seen most",
+                                     persons.size(), most_persons)};
+    if (file.frames * persons.size() > most_bodies)
+        return broken(
+            fmt::format("{} persons in {} frames, more than a clip may have", persons.size(), file.frames));
+    auto clip = std::make_unique<GtaClip>();
+    clip->name = printable(raw.stem);
+    clip->dataset = persons.size() - 1;
+    clip->frames = file.frames;
+    bool gaps = false;
+    for (const auto& person : persons) {
+        gaps = gaps || person.times.size() < file.frames;
+        clip->persons.push_back(person_of(person));
+    }
+    if (gaps) clip->doubts.emplace_back("persons not seen all the time: filled from the frames around");
+    return clip;
+}
+
+kernels::CleanedBatch GtaFormat::clean(kernels::Device& device, std::size_t dataset,
+                                       std::span<const std::unique_ptr<RawClip>> clips,
+                                       std::vector<std::uint32_t>& frames) const {
+    kernels::ClipBatch batch;
+    batch.persons = datasets_[dataset].persons;
+    batch.joints = gta_joints;
+    batch.first = {0};
+    for (const auto& raw : clips) {
+        const auto& clip = static_cast<const GtaClip&>(*raw);
+        batch.frames.push_back(clip.frames);
+        batch.step.push_back(1);
+        for (const auto& person : clip.persons) {
+            batch.times.insert(batch.times.end(), person.times.begin(), person.times.end());
+            batch.first.push_back(static_cast<std::uint32_t>(batch.times.size()));
+        }
+    }
+    frames = batch.frames;
+    auto limbs = kernels::limb_buffer(device, batch.times.size(), gta_joints);
+    limbs.write_with([&](std::span<float> to) {
+        auto at = to.begin();
+        for (const auto& raw : clips)
+            for (const auto& person : static_cast<const GtaClip&>(*raw).persons)
+                at = std::copy(person.limbs.begin(), person.limbs.end(), at);
+    });
+    auto cleaned = kernels::clean(device, batch, limbs, kernels::Smoothing{0, 0});
+    auto at = cleaned.bone_length.begin();
+    for (const auto& raw : clips)
+        for (std::size_t p = 0; p < batch.persons; ++p, at += gta_joints)
+            if (static_cast<const GtaClip&>(*raw).usual_lengths)
+                std::copy(lengths_.begin(), lengths_.end(), at);
+    return cleaned;
+}
+
+}  // namespace actformer::ingest
