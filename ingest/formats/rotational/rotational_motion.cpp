@@ -33,9 +33,10 @@ class Frame {
     std::uint64_t at_ = std::numeric_limits<std::uint64_t>::max();
 };
 
+constexpr std::uint64_t most_frames = std::uint64_t{1} << 20;  // nearly ten hours, and 0.8 GB
+
 RotationalMotion room_for(std::uint64_t frames) {
-    if (frames > std::numeric_limits<std::uint32_t>::max() / smpl_joints)
-        throw Error("{} frames, more than a clip may have", frames);
+    if (frames > most_frames) throw Error("{} frames, more than a clip may have", frames);
     RotationalMotion out;
     out.frames = static_cast<std::uint32_t>(frames);
     out.rotations.reserve(frames * smpl_joints);

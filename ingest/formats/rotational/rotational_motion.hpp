@@ -31,7 +31,7 @@ struct RotationVectors {
     std::function<void(std::uint64_t frame, double* vectors, double* translation)> read;
 };
 
-/// Every frame. Throws Error, naming the frame, for a number that is not finite, and for more frames than 32 bits count.
+/// Every frame. Throws Error, naming the frame, for a number that is not finite, and for more than 2^20 frames.
 RotationalMotion as_recorded(const RotationVectors& file);
 
 /// Frame i shows time i/to, between the frames around it: rotations by slerp a joint, the translation linearly. The last frame is at
