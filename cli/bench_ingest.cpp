@@ -14,6 +14,7 @@
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
 #include "cli/bench.hpp"
+#include "cli/bench_babel.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "ingest/formats/motions/motions_format.hpp"
@@ -29,9 +30,9 @@ namespace fs = std::filesystem;
 
 struct Options {
     std::string format = "ntu";
-    double gigabytes = 1;
+    double gigabytes = 1, hours = 0.5, many_hours = 0;
     std::uint64_t clips = 4000, many = 0;
-    std::string sample = "../shared/data/ntu_sample", peer = "../shared/reference/preprocess.py";
+    std::string sample = "../shared/data/ntu_sample", peer;
     std::string python = "/usr/bin/python3", folder, device;
     int repeats = 3;
     unsigned threads = 0;
@@ -110,8 +111,9 @@ Measured best_of_ours(const Options& options, const Scratch& scratch, kernels::D
 
 /// Clips a second of the reference program, by its own clock, which leaves out Python's start.
 std::optional<double> run_peer(const Options& options, const Scratch& scratch) {
-    if (!fs::exists(options.peer)) return {};
-    const auto line = fmt::format("'{}' '{}' '{}' '{}'", options.python, options.peer,
+    const std::string peer = options.peer.empty() ? "../shared/reference/preprocess.py" : options.peer;
+    if (!fs::exists(peer)) return {};
+    const auto line = fmt::format("'{}' '{}' '{}' '{}'", options.python, peer,
                                   (scratch.path() / "raw").string(), (scratch.path() / "peer.h5").string());
     const auto said = output_of(line);
     double clips = 0, seconds = 0;
@@ -229,6 +231,11 @@ void run_motions(const Options& options) {
 
 void run(const Options& options) {
     if (options.format == "motions") return run_motions(options);
+    if (options.format == "babel")
+        return bench_babel({options.hours, options.many_hours,
+                            options.peer.empty() ? "tests/bench/babel_numpy.py" : options.peer,
+                            options.python, options.folder, options.device, options.repeats, options.threads,
+                            options.json});
     kernels::Device device(options.device);
     const Scratch scratch("bench", options.folder);
     make_raw(options, scratch.path() / "raw");
@@ -253,20 +260,27 @@ void run(const Options& options) {
 
 void add_bench_ingest(CLI::App& bench) {
     auto options = std::make_shared<Options>();
-    auto* command =
-        bench.add_subcommand("ingest", "From raw NTU text to shards, beside the reference program");
-    command->add_option("--format", options->format, "What to ingest: ntu, or motions, an array of joints")
-        ->check(CLI::IsMember({"ntu", "motions"}))
+    auto* command = bench.add_subcommand("ingest", "From raw data to shards, beside a reference program");
+    command
+        ->add_option("--format", options->format,
+                     "What to ingest: ntu; motions, an array of joints; babel, recordings in AMASS's layout")
+        ->check(CLI::IsMember({"ntu", "motions", "babel"}))
         ->capture_default_str();
     command->add_option("--gigabytes", options->gigabytes, "Size of the array")
         ->check(CLI::Range(0.001, 1000.0))
         ->capture_default_str();
+    command->add_option("--hours", options->hours, "Hours of recordings in AMASS's layout")
+        ->check(CLI::Range(0.01, 100.0))
+        ->capture_default_str();
+    command->add_option("--many-hours", options->many_hours,
+                        "Also ingest so many hours of linked recordings, to watch the memory");
     command->add_option("--clips", options->clips, "Clips, half of them copies of the sample")
         ->capture_default_str();
     command->add_option("--many", options->many, "Also ingest so many linked clips, to watch the memory");
     command->add_option("--sample", options->sample, "Folder with a real .skeleton file")
         ->capture_default_str();
-    command->add_option("--peer", options->peer, "The reference program")->capture_default_str();
+    command->add_option("--peer", options->peer,
+                        "The reference program (default: NTU's, or tests/bench/babel_numpy.py for babel)");
     command->add_option("--python", options->python, "Python for the reference program")
         ->capture_default_str();
     command->add_option("--folder", options->folder,
@@ -279,7 +293,8 @@ void add_bench_ingest(CLI::App& bench) {
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer bench ingest\n  actformer bench ingest --many 100000\n"
-             "  actformer bench ingest --format motions --gigabytes 4\n");
+             "  actformer bench ingest --format motions --gigabytes 4\n"
+             "  actformer bench ingest --format babel --many-hours 40\n");
     command->callback([options] { run(*options); });
 }
 
