@@ -16,7 +16,7 @@ namespace {
 /// What every ingest takes.
 struct IngestOptions {
     std::vector<std::string> raw;
-    std::string out, device;
+    std::string out, device, origin;
     unsigned threads = 0;
     bool strict = false, json = false;
 };
@@ -74,6 +74,12 @@ void add_common(CLI::App* command, IngestOptions& options) {
     command->add_option("-o,--out", options.out, "Folder to make")->required()->type_name("DIR");
     command->add_option("--device", options.device, "OpenCL device: a number, gpu, cpu, or part of a name");
     command->add_option("--threads", options.threads, "Threads that read and parse (default: all cores)");
+    command
+        ->add_option("--origin", options.origin,
+                     "What dataset and reports say of the motion: recorded, synthetic or stand-in, which "
+                     "`synth` makes "
+                     "(default: what RAW's file ORIGIN or the format tells)")
+        ->check(CLI::IsMember({"recorded", "synthetic", "stand-in"}));
     command->add_flag("--strict", options.strict, "Stop at the first broken clip in place of skipping it");
     command->add_flag("--json", options.json, "Print the summary as JSON");
 }
@@ -110,6 +116,7 @@ void run(const IngestOptions& options, const ingest::IngestCommand& command) {
     request.strict = options.strict;
     request.one_dataset = command.one_dataset();
     request.threads = options.threads;
+    if (!options.origin.empty()) request.origin = ingest::origin_named(options.origin, "--origin");
     const auto format = command.open(dataset_name(request.out));
     kernels::Device device(options.device);
     Progress progress("ingest", "clips");

@@ -55,6 +55,7 @@ void print_text(const ingest::Dataset& dataset, bool list_classes) {
     fmt::print("  {} ({} to {} a clip, median {}) in {}, {}\n", counted(lengths.total, "frame"),
                lengths.shortest, lengths.longest, lengths.median, counted(dataset.shards().size(), "shard"),
                bytes(size));
+    if (const auto origin = header.origin.text(); !origin.empty()) fmt::print("  {}\n", origin);
     if (const auto height = ingest::body_height(dataset))
         fmt::print(
             "  bodies about {:.2f} m tall{}\n", height->metres,
@@ -78,6 +79,7 @@ Json to_json(const ingest::Dataset& dataset) {
     return {{"folder", dataset.folder().string()},
             {"name", header.name},
             {"source", dataset.fingerprint()},
+            {"origin", header.origin.text()},
             {"clips", dataset.clips().size()},
             {"frames",
              {{"total", lengths.total},

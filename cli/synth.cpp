@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "ingest/dataset/origin.hpp"
 #include "ingest/synth/ntu/ntu.hpp"
 
 namespace actformer::cli {
@@ -75,6 +76,7 @@ void synth_ntu(Arguments& a) {
         summary = synthesise_ntu(
             a.options, [&](std::uint64_t done) { progress.update(static_cast<double>(done) / total, done); });
     }
+    ingest::write_origin(a.options.folder, ingest::DataOrigin::Kind::stand_in);
     print_summary(summary, a,
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }

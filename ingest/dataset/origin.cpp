@@ -1,8 +1,16 @@
 #include "ingest/dataset/origin.hpp"
 
 #include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "base/text/printable.hpp"
 
 namespace actformer::ingest {
+namespace {
+
+constexpr const char* marker = "ORIGIN";
+constexpr std::uint64_t largest_marker = 1 << 10;
+
+}  // namespace
 
 std::string_view name_of(DataOrigin::Kind kind) {
     switch (kind) {
@@ -21,6 +29,18 @@ DataOrigin::Kind origin_named(std::string_view name, const std::string& where) {
     for (const auto kind : {recorded, synthetic, stand_in})
         if (name == name_of(kind)) return kind;
     throw Error("{}: origin '{}' is none of recorded, synthetic, stand-in", where, name);
+}
+
+std::optional<DataOrigin::Kind> read_origin(const std::filesystem::path& folder) {
+    const auto path = folder / marker;
+    if (std::error_code error; !std::filesystem::is_regular_file(path, error)) return {};
+    std::vector<char> scratch;
+    const auto text = read_text(path, scratch, largest_marker);
+    return origin_named(printable(text.substr(0, text.find_first_of("\r\n"))), path.string());
+}
+
+void write_origin(const std::filesystem::path& folder, DataOrigin::Kind kind) {
+    write_whole(folder / marker, std::string(name_of(kind)) + "\n");
 }
 
 std::string DataOrigin::text() const {

@@ -1,6 +1,7 @@
 // Where a dataset's motion comes from: tables and captions say it with every figure that was measured on it.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,5 +29,10 @@ std::string_view name_of(DataOrigin::Kind kind);
 
 /// Throws Error, beginning with `where`, for a name that is none of these.
 DataOrigin::Kind origin_named(std::string_view name, const std::string& where);
+
+/// Raw data tell it in a file ORIGIN of one of these names, in the folder that is ingested or the one around it: what `synth` writes is a stand-in.
+/// None where there is no such file. Throws Error where it says something else.
+std::optional<DataOrigin::Kind> read_origin(const std::filesystem::path& folder);
+void write_origin(const std::filesystem::path& folder, DataOrigin::Kind kind);
 
 }  // namespace actformer::ingest

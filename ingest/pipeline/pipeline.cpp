@@ -51,7 +51,15 @@ std::string checksum_of(const RawText& raw) {
 class Ingest {
   public:
     Ingest(const IngestRequest& request, Format& format, kernels::Device& device)
-        : request_(request), format_(format), device_(device), threads_(thread_count(request.threads)) {}
+        : request_(request),
+          format_(format),
+          device_(device),
+          threads_(thread_count(request.threads)),
+          origin_(request.origin) {
+        for (const auto& raw : request.raw)
+            for (const auto& folder : {raw, raw.parent_path()})
+                if (!origin_) origin_ = read_origin(folder);
+    }
 
     IngestSummary run() {
         const auto start = Clock::now();
@@ -126,8 +134,8 @@ class Ingest {
     }
 
     std::string request_line(const Source& source) const {
-        return fmt::format("actformer {} | {} | raw {}", ACTFORMER_VERSION, format_.settings(),
-                           source.listing());
+        return fmt::format("actformer {} | {} | raw {}{}", ACTFORMER_VERSION, format_.settings(),
+                           source.listing(), origin_ ? fmt::format(" | {}", name_of(*origin_)) : "");
     }
 
     fs::path folder_of(std::size_t dataset) const {
@@ -360,6 +368,7 @@ class Ingest {
 
     DatasetFile dataset_file(std::size_t dataset, const std::vector<Tranche>& tranches) const {
         DatasetFile file{format_.datasets()[dataset], format_.settings(), fingerprint_, {}, {}};
+        if (origin_) file.header.origin.kind = origin_;
         for (const auto& tranche : tranches)
             for (auto [owner, shard] : tranche.shards) {
                 if (owner != dataset) continue;
@@ -373,6 +382,7 @@ class Ingest {
     Format& format_;
     kernels::Device& device_;
     unsigned threads_;
+    std::optional<DataOrigin::Kind> origin_;
     IngestSummary summary_;
     std::vector<std::vector<std::unique_ptr<RawClip>>> pending_;  ///< (datasets) parsed and not yet cleaned
     std::size_t pending_bytes_ = 0;

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct IngestRequest {
     bool strict = false;       ///< a broken clip is an error
     bool one_dataset = false;  ///< OUT itself is the dataset, in place of OUT/NAME
     unsigned threads = 0;      ///< 0: all cores
+    std::optional<DataOrigin::Kind>
+        origin;  ///< of the motion; none: as a file ORIGIN in or beside RAW tells, else as the format has it
     std::function<void(double fraction, std::uint64_t clips)> progress;
 };
 

@@ -30,6 +30,7 @@ DatasetHeader family(const std::string& name, std::uint32_t persons) {
     DatasetHeader header;
     header.name = name;
     header.topology = ntu25();
+    header.origin.kind = DataOrigin::Kind::recorded;
     header.persons = persons;
     header.fields = {"setup", "camera", "performer", "replication", "action"};
     header.splits = ntu_splits();

@@ -52,3 +52,15 @@ TEST(DataOrigin, StandsInDatasetJsonWhereItIsTold) {
                                              ": origin 'invented' is none of recorded, synthetic, stand-in");
     }
 }
+
+TEST(DataOrigin, StandsBesideRawData) {
+    const TempDir dir;
+    EXPECT_EQ(read_origin(dir.path()), std::nullopt);
+    EXPECT_EQ(read_origin(dir / "raw.zip"), std::nullopt);
+    write_origin(dir.path(), DataOrigin::Kind::stand_in);
+    EXPECT_EQ(read_origin(dir.path()), DataOrigin::Kind::stand_in);
+    write_file(dir / "ORIGIN", "synthetic\r\nas the game makes it");
+    EXPECT_EQ(read_origin(dir.path()), DataOrigin::Kind::synthetic);
+    write_file(dir / "ORIGIN", "a game");
+    EXPECT_THROW(read_origin(dir.path()), Error);
+}
