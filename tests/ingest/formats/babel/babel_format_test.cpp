@@ -14,6 +14,7 @@
 #include "ingest/formats/babel/categories.hpp"
 #include "ingest/pipeline/pipeline.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/made_body.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
@@ -171,6 +172,27 @@ TEST_F(BabelOnDevice, CutsClipsOutOfARecording) {
             EXPECT_NEAR(place[2], 0, 1e-7);
         }
     }
+}
+
+TEST_F(BabelOnDevice, ABodyModelGivesTheRestSkeleton) {
+    write_amass(dir / "raw/CMU/01/01_01_poses.npz", {});
+    annotate({sequence(7, motion, "[" + label("a", R"(["walk"])", R"(, "start_t": 0, "end_t": 1)") + "]")});
+    auto body = made_body();
+    for (auto& v : body["v_template"].values) v *= 1.5;
+    write_body(dir / "large.npz", body);
+    options.categories = "walk";
+    options.rotational.body = (dir / "large.npz").string();
+    run();
+    const Dataset dataset(dir / "out");
+    EXPECT_EQ(dataset.header().origin.text(), "recorded, skeleton of large.npz");
+    const auto generic = generic_skeleton().rest(), got = dataset.header().rest;
+    ASSERT_EQ(got.size(), generic.size());
+    for (std::size_t i = 0; i < got.size(); ++i) EXPECT_NEAR(got[i], 1.5F * generic[i], 1e-6);
+    // The body lies, as rotations of 0 have it where z is up: its thigh points along +z.
+    const auto joints = joint_positions(dataset.motion(0), dataset.body(0));
+    EXPECT_NEAR(joints[3 * 1 + 2] - joints[3 * 4 + 2], 1.5 * generic[3 * 4 + 1], 1e-5);
+    options.rotational.body = (dir / "none.pkl").string();
+    EXPECT_NE(fault().find("none.pkl"), std::string::npos) << fault();
 }
 
 TEST_F(BabelOnDevice, CountsAndNamesWhatGivesNoClip) {
