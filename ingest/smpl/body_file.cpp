@@ -143,6 +143,17 @@ std::vector<std::uint32_t> faces_of(const ModelArray& faces, std::uint64_t verti
     return out;
 }
 
+ModelArrays arrays_of(std::string_view bytes) {
+    if (is_html(bytes)) throw Error("{}", html_in_place_of("a body model"));
+    const std::vector<std::string> wanted{"v_template", "shapedirs",     "posedirs", "J_regressor",
+                                          "weights",    "kintree_table", "f"};
+    try {
+        return bytes.starts_with("PK") ? read_model_npz(bytes, wanted) : read_model_pickle(bytes, wanted);
+    } catch (const Error& e) {
+        throw Error("{}; take SMPL's .pkl as it is downloaded from smpl.is.tue.mpg.de", e.what());
+    }
+}
+
 }  // namespace
 
 RestSkeleton SmplBody::rest(std::span<const float> betas) const {
@@ -154,11 +165,7 @@ RestSkeleton SmplBody::rest(std::span<const float> betas) const {
 }
 
 SmplBody parse_smpl_body(std::string_view bytes, const std::string& name) {
-    if (is_html(bytes)) throw Error("{}", html_in_place_of("a body model"));
-    const std::vector<std::string> wanted{"v_template", "shapedirs",     "posedirs", "J_regressor",
-                                          "weights",    "kintree_table", "f"};
-    const Arrays arrays(bytes.starts_with("PK") ? read_model_npz(bytes, wanted)
-                                                : read_model_pickle(bytes, wanted));
+    const Arrays arrays(arrays_of(bytes));
     check_joints(arrays);
     const auto& rest = arrays.get("v_template", {0, 3});
     const auto vertices = rest.shape[0];

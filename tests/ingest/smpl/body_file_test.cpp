@@ -179,6 +179,7 @@ TEST(SmplBody, FilesThatAreNoModelsAreRefused) {
     expect_in(refusal(folder / "page.pkl"), "an HTML page in place of a body model");
     write_file(folder / "zeros.pkl", std::string(1000, '\0'));
     expect_in(refusal(folder / "zeros.pkl"), "zeros.pkl: byte 0: ");
+    expect_in(refusal(folder / "zeros.pkl"), "; take SMPL's .pkl");
     write_file(folder / "list.pkl", "\x80\x02].");
     expect_in(refusal(folder / "list.pkl"), "a list, not a dict");
     if (std::filesystem::exists(toy("toy_chumpy_py2.pkl"))) {
