@@ -69,9 +69,11 @@ MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
     return *this;
 }
 
-void MappedFile::release_all() const {
+void MappedFile::release_read(std::size_t bytes) const {
+    read_ += bytes;
+    if (read_ < released_at_once) return;
     ::madvise(memory_, mapped_, MADV_DONTNEED);
-    released_ = 0;
+    released_ = read_ = 0;
 }
 
 void MappedFile::release(const char* here) const {

@@ -23,13 +23,15 @@ class MappedFile {
     /// read. Not from several threads at once.
     void release(const char* here) const;
 
-    /// The memory that any of it takes becomes free, at once. Not from several threads at once.
-    void release_all() const;
+    /// `bytes` more of it, wherever they lie, are not needed for now: from time to time the memory that any of it takes becomes free.
+    /// Not from several threads at once.
+    void release_read(std::size_t bytes) const;
 
   private:
     char* memory_ = nullptr;
     std::size_t size_ = 0, mapped_ = 0;
     mutable std::size_t released_ = 0;  ///< bytes before this lie in no memory
+    mutable std::size_t read_ = 0;      ///< bytes that release_read() was told of and has not released
 };
 
 }  // namespace actformer

@@ -1,7 +1,5 @@
 #include "base/numpy/rows.hpp"
 
-#include <algorithm>
-
 #include "base/error.hpp"
 #include "base/text/printable.hpp"
 
@@ -15,7 +13,7 @@ NumpyRows::NumpyRows(const NumpyArray& array, std::string_view name, const std::
         !std::equal(inner.begin(), inner.end(), shape.begin() + 1))
         throw Error("{} is an array of {} {}, where numbers (rows, {}) are meant", in_quotes(name),
                     array.type, array.shape_text(), fmt::join(inner, ", "));
-    rows_ = shape[0];
+    count_ = rows_ = shape[0];
 }
 
 void NumpyRows::read(std::uint64_t i, double* to) const {

@@ -9,7 +9,9 @@
 //   5. Test the reader and the format in tests/ingest/formats/NAME/; fuzz the reader with tests/fuzz/NAME_fuzz.cpp and a seed or two.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -34,14 +36,22 @@ struct RawText {
     bool on_disk = false;       ///< `path` is a file that a library can open
     const MappedFile* mapped = nullptr;  ///< what the text of a large file lies in
 
+    /// Whether the path ends in `extension`, as in ".pkl", in any case.
+    bool ends_in(std::string_view extension) const {
+        const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+        return path.size() >= extension.size() &&
+               std::equal(extension.begin(), extension.end(), path.end() - std::ssize(extension),
+                          [&](char a, char b) { return lower(a) == lower(b); });
+    }
+
     /// The text before `here` has been read for good: memory stays flat over a large file.
     void release(const char* here) const {
         if (mapped) mapped->release(here);
     }
 
-    /// The same of all of the text: memory stays flat where a large file is read here and there.
-    void release_all() const {
-        if (mapped) mapped->release_all();
+    /// `bytes` more of the text, wherever they lie, have been read for good: memory stays flat where a large file is read here and there.
+    void release_read(std::size_t bytes) const {
+        if (mapped) mapped->release_read(bytes);
     }
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/error.hpp"
+
 namespace actformer::ingest {
 namespace {
 
@@ -114,6 +116,31 @@ std::array<int, 3> axes_below(Up up) {
             return {2, -1, 3};
     }
     return {1, 2, 3};
+}
+
+std::variant<std::unique_ptr<PositionClip>, Rejection> clip_below_camera(const NumpyArray& array,
+                                                                         const DatasetHeader& header) {
+    if (array.shape.empty() || array.shape[0] == 0) throw Error("no frame");
+    PositionsRequest request;
+    request.topology = &header.topology;
+    request.axes = axes_below(Up::minus_y);
+    request.limbs = header.representation != Representation::xyz;
+    auto read = read_positions(JointArray(array, header.topology.joints(), "tkc"), 0, request);
+    if (auto* rejection = std::get_if<Rejection>(&read)) return std::move(*rejection);
+    auto clip = std::make_unique<PositionClip>();
+    clip->take(std::move(std::get<ClipPositions>(read)));
+    return clip;
+}
+
+kernels::CleanedBatch cleaned(kernels::Device& device, std::span<const std::unique_ptr<RawClip>> clips,
+                              const DatasetHeader& header, std::vector<std::uint32_t>& frames) {
+    std::vector<const PositionClip*> positions;
+    frames.clear();
+    for (const auto& raw : clips) {
+        positions.push_back(static_cast<const PositionClip*>(raw.get()));
+        frames.push_back(positions.back()->frames);
+    }
+    return cleaned(device, positions, header, false);
 }
 
 kernels::CleanedBatch cleaned(kernels::Device& device, std::span<const PositionClip* const> clips,

@@ -52,6 +52,19 @@ bool two_persons(int action) {
     return (action >= 50 && action <= 60) || (action >= 106 && action <= 120);
 }
 
+std::vector<std::string> class_names(int persons) {
+    std::vector<std::string> names;
+    for (int action = 1; action <= actions; ++action)
+        if (two_persons(action) == (persons == 2)) names.emplace_back(action_name(action));
+    return names;
+}
+
+std::uint32_t label_of(int action) {
+    std::uint32_t label = 0;
+    for (int before = 1; before < action; ++before) label += two_persons(before) == two_persons(action);
+    return label;
+}
+
 bool xsub_train(int performer) {
     return std::binary_search(train_performers.begin(), train_performers.end(), performer);
 }

@@ -29,6 +29,17 @@ std::optional<NtuName> parse_ntu_name(std::string_view stem) {
     return NtuName{numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
 }
 
+std::vector<std::string> ntu_fields() {
+    return {"setup", "camera", "performer", "replication", "action"};
+}
+
+std::vector<std::string> ntu_fields_of(const NtuName& name) {
+    std::vector<std::string> values;
+    for (const int value : {name.setup, name.camera, name.performer, name.replication, name.action})
+        values.push_back(std::to_string(value));
+    return values;
+}
+
 std::unordered_set<std::string> read_missing_list(const std::filesystem::path& path) {
     std::vector<char> scratch;
     auto text = without_bom(read_text(path, scratch, std::uint64_t{64} << 20));

@@ -32,19 +32,13 @@ DatasetHeader family(const std::string& name, std::uint32_t persons) {
     header.topology = ntu25();
     header.origin.kind = DataOrigin::Kind::recorded;
     header.persons = persons;
-    header.fields = {"setup", "camera", "performer", "replication", "action"};
+    header.fields = ntu_fields();
     header.splits = ntu_splits();
-    for (int action = 1; action <= ntu::actions; ++action)
-        if (ntu::two_persons(action) == (persons == 2)) header.classes.emplace_back(ntu::action_name(action));
+    header.classes = ntu::class_names(static_cast<int>(persons));
     return header;
 }
 
-std::uint32_t label_of(int action) {
-    std::uint32_t label = 0;
-    for (int before = 1; before < action; ++before)
-        label += ntu::two_persons(before) == ntu::two_persons(action);
-    return label;
-}
+using ntu::label_of;
 
 constexpr auto zeros_doubt = "bodies or joints at 0 0 0 or NaN were not seen: filled from the frames around";
 constexpr auto tracks_doubt = "a body's tracking number changes: --join-tracks makes one body of such tracks";
@@ -173,8 +167,7 @@ std::variant<std::vector<NtuFormat::Planned>, Rejection> NtuFormat::clips_of(con
                  {},
                  {},
                  {}};
-    for (const int value : {name->setup, name->camera, name->performer, name->replication, name->action})
-        clip.fields.push_back(std::to_string(value));
+    clip.fields = ntu_fields_of(*name);
     return std::vector{std::move(clip)};
 }
 

@@ -1,0 +1,21 @@
+#include "ingest/formats/ntu13/ntu13_command.hpp"
+
+#include "ingest/formats/ntu13/ntu13_format.hpp"
+
+namespace actformer::ingest {
+
+std::vector<Option> Ntu13Command::list() {
+    auto options = rotations.list();
+    options.push_back(
+        Option("--from", "What becomes the dataset: SMPL's rotations, or 18 of the joints that VIBE found",
+               "WHAT", &from)
+            .one_of({"rotations", "joints"})
+            .with_default());
+    return options;
+}
+
+std::unique_ptr<Format> Ntu13Command::open(const std::string& dataset) const {
+    return std::make_unique<Ntu13Format>(Ntu13Options{dataset, from == "joints", rotations.target()});
+}
+
+}  // namespace actformer::ingest
