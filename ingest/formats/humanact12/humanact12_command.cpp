@@ -17,6 +17,10 @@ std::vector<Option> HumanAct12Command::list() {
         Option("--fps", "Frames a second to tell: 30 as published; the cameras took 15, HumanML3D has 20",
                "F", &fps)
             .with_default());
+    options.emplace_back(
+        "--published",
+        "The camera's frame, y down, as the public tools and the recognisers trained with them have it", "",
+        &published);
     return options;
 }
 
@@ -24,7 +28,8 @@ std::unique_ptr<Format> HumanAct12Command::open(const std::string& dataset) cons
     if (!(fps >= 1 && fps <= 1000)) throw Error("{} frames a second; give 1 to 1000", fps);
     using From = HumanAct12Options::From;
     const auto source = from.empty() ? From::files : from == "joints" ? From::joints : From::rotations;
-    return std::make_unique<HumanAct12Format>(HumanAct12Options{dataset, source, rotations.target(), fps});
+    return std::make_unique<HumanAct12Format>(
+        HumanAct12Options{dataset, source, rotations.target(), fps, published});
 }
 
 }  // namespace actformer::ingest

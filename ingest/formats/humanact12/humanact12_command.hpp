@@ -10,6 +10,7 @@ struct HumanAct12Command : IngestCommand {
     RotationalOptions rotations;
     std::string from;
     double fps = 30;
+    bool published = false;
 
     std::vector<Option> list() override;
     std::unique_ptr<Format> open(const std::string& dataset) const override;

@@ -21,8 +21,10 @@ constexpr std::array classes{
     "phone",   "boxing", "throw"};
 constexpr std::size_t published = 1191;  // clips
 
+}  // namespace
+
 /// The pickle's lists, an element a clip.
-class Clips {
+class HumanAct12Format::Clips {
   public:
     explicit Clips(const PickleValue& file)
         : poses_(file.get("poses")), joints_(file.get("joints3D")), labels_(labels_of(file.get("y"))) {
@@ -51,19 +53,17 @@ class Clips {
 
     const NumpyArray& joints(std::size_t clip) const { return joints_[clip].array(); }
 
-    /// Upright, with the root where the joints have it.
+    /// In the camera's frame, with the root where the joints have it.
     RotationalMotion motion(std::size_t clip) const {
         const auto poses = smpl_poses(poses_[clip].array(), "poses");
         const NumpyRows joints(this->joints(clip), "joints3D", {smpl_joints, 3});
         if (joints.count() != poses.count())
             throw Error("{} frames of 'poses' and {} of 'joints3D'", poses.count(), joints.count());
         std::vector<double> row(joints.size());
-        auto motion = motion_of(poses, [&](std::uint64_t frame, double* xyz) {
+        return motion_of(poses, [&](std::uint64_t frame, double* xyz) {
             joints.read(frame, row.data());
             std::copy_n(row.data(), 3, xyz);
         });
-        turn(motion, y_down_to_y_up);
-        return motion;
     }
 
   private:
@@ -77,8 +77,6 @@ class Clips {
     PickleValue poses_, joints_;
     std::vector<double> labels_;
 };
-
-}  // namespace
 
 void HumanAct12Format::settle() {
     rotations_ = options_.from == From::rotations || (options_.from == From::files && pickles_ > 0);
@@ -105,10 +103,10 @@ void HumanAct12Format::settle() {
 }
 
 std::string HumanAct12Format::settings() const {
-    return fmt::format(
-        "humanact12: {} at {} frames a second",
-        rotations_ ? options_.target.text() : fmt::format("{} of joints", datasets_[0].representation.name()),
-        options_.fps);
+    const auto what =
+        rotations_ ? options_.target.text() : fmt::format("{} of joints", datasets_[0].representation.name());
+    return fmt::format("humanact12{}: {} at {} frames a second", options_.published ? ", y down" : "", what,
+                       options_.fps);
 }
 
 std::vector<std::string> HumanAct12Format::remarks() const {
@@ -136,24 +134,30 @@ void HumanAct12Format::read(const RawText& raw, ClipSink& sink) const {
 void HumanAct12Format::read_pickle(const RawText& raw, ClipSink& sink) const {
     const Pickle file(raw.text, {}, [&](const char* here) { raw.release(here); });
     const Clips clips(file.root());
-    for (std::size_t i = 0; i < clips.size(); ++i) {
-        sink.take(made_or_broken(fmt::format("clip {}", i), [&]() -> ParsedClip {
-            const auto label = clips.label(i);
-            std::unique_ptr<RawClip> clip;
-            if (rotations_) {
-                clip = whole(clips.motion(i), options_.target);
-            } else {
-                auto made = clip_below_camera(clips.joints(i), datasets_[0]);
-                if (auto* rejection = std::get_if<Rejection>(&made)) return std::move(*rejection);
-                clip = std::move(std::get<0>(made));
-            }
-            clip->name = fmt::format("A{:03}_{:04}", label + 1, i);
-            clip->label = label;
-            clip->fields = {std::to_string(label + 1), std::to_string(i)};
-            return clip;
-        }));
-        raw.release_read(clips.bytes(i));
+    make_in_order(
+        clips.size(), sink, [&](std::size_t i) { return clips.bytes(i); },
+        [&](std::size_t i) {
+            return made_or_broken(fmt::format("clip {}", i), [&] { return make_clip(clips, i); });
+        },
+        [&](std::size_t bytes) { raw.release_read(bytes); });
+}
+
+ParsedClip HumanAct12Format::make_clip(const Clips& clips, std::size_t i) const {
+    const auto label = clips.label(i);
+    std::unique_ptr<RawClip> clip;
+    if (rotations_) {
+        auto motion = clips.motion(i);
+        if (!options_.published) turn(motion, y_down_to_y_up);
+        clip = whole(motion, options_.target);
+    } else {
+        auto made = position_clip(clips.joints(i), up(), datasets_[0]);
+        if (auto* rejection = std::get_if<Rejection>(&made)) return std::move(*rejection);
+        clip = std::move(std::get<0>(made));
     }
+    clip->name = fmt::format("A{:03}_{:04}", label + 1, i);
+    clip->label = label;
+    clip->fields = {std::to_string(label + 1), std::to_string(i)};
+    return clip;
 }
 
 ParsedClip HumanAct12Format::parse_array(const RawText& raw) const {
@@ -161,7 +165,7 @@ ParsedClip HumanAct12Format::parse_array(const RawText& raw) const {
     if (!name)
         return Rejection{Rejection::Kind::broken,
                          "the name is not PssGggRrrFffffTttttAcccc with a class from 01 to 12"};
-    auto made = clip_below_camera(read_npy(raw.text), datasets_[0]);
+    auto made = position_clip(read_npy(raw.text), up(), datasets_[0]);
     if (auto* rejection = std::get_if<Rejection>(&made)) return std::move(*rejection);
     auto clip = std::move(std::get<0>(made));
     clip->name = raw.stem;

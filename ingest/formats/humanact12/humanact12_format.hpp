@@ -7,6 +7,7 @@
 
 #include "ingest/formats/format.hpp"
 #include "ingest/formats/rotational/rotational_clip.hpp"
+#include "ingest/formats/skeletal/up.hpp"
 
 namespace actformer::ingest {
 
@@ -17,6 +18,7 @@ struct HumanAct12Options {
     RotationalTarget
         target;  ///< of rotations; joints become limbs, or positions where its representation is xyz
     double fps = 30;
+    bool published = false;  ///< the camera's frame with y down, as the public tools leave it
 };
 
 /// One dataset of 12 classes without splits, as published.
@@ -40,6 +42,10 @@ class HumanAct12Format : public Format {
 
   private:
     void read_pickle(const RawText& raw, ClipSink& sink) const;
+    class Clips;
+
+    Up up() const { return options_.published ? Up::y : Up::minus_y; }
+    ParsedClip make_clip(const Clips& clips, std::size_t i) const;
     ParsedClip parse_array(const RawText& raw) const;
 
     HumanAct12Options options_;

@@ -118,12 +118,12 @@ std::array<int, 3> axes_below(Up up) {
     return {1, 2, 3};
 }
 
-std::variant<std::unique_ptr<PositionClip>, Rejection> clip_below_camera(const NumpyArray& array,
-                                                                         const DatasetHeader& header) {
+std::variant<std::unique_ptr<PositionClip>, Rejection> position_clip(const NumpyArray& array, Up up,
+                                                                     const DatasetHeader& header) {
     if (array.shape.empty() || array.shape[0] == 0) throw Error("no frame");
     PositionsRequest request;
     request.topology = &header.topology;
-    request.axes = axes_below(Up::minus_y);
+    request.axes = axes_below(up);
     request.limbs = header.representation != Representation::xyz;
     auto read = read_positions(JointArray(array, header.topology.joints(), "tkc"), 0, request);
     if (auto* rejection = std::get_if<Rejection>(&read)) return std::move(*rejection);

@@ -30,10 +30,10 @@ struct PositionClip : RawClip {
 /// Which axis of the recording each axis of the dataset is, for PositionsRequest::axes.
 std::array<int, 3> axes_below(Up up);
 
-/// One person's joints, (frames, joints, 3) metres in a camera's frame with y down, turned y up; rejected as read_positions rejects it.
-/// Throws Error where the array has another shape.
-std::variant<std::unique_ptr<PositionClip>, Rejection> clip_below_camera(const NumpyArray& array,
-                                                                         const DatasetHeader& header);
+/// One person's joints, (frames, joints, 3) metres, turned y up; rejected as read_positions rejects it. Throws Error where the array has
+/// another shape.
+std::variant<std::unique_ptr<PositionClip>, Rejection> position_clip(const NumpyArray& array, Up up,
+                                                                     const DatasetHeader& header);
 
 /// What Format::clean returns for PositionClips, not smoothed.
 kernels::CleanedBatch cleaned(kernels::Device& device, std::span<const std::unique_ptr<RawClip>> clips,

@@ -11,11 +11,16 @@ std::vector<Option> Ntu13Command::list() {
                "WHAT", &from)
             .one_of({"rotations", "joints"})
             .with_default());
+    options.emplace_back(
+        "--published",
+        "The camera's frame, y down, as the public tools and the recognisers trained with them have it", "",
+        &published);
     return options;
 }
 
 std::unique_ptr<Format> Ntu13Command::open(const std::string& dataset) const {
-    return std::make_unique<Ntu13Format>(Ntu13Options{dataset, from == "joints", rotations.target()});
+    return std::make_unique<Ntu13Format>(
+        Ntu13Options{dataset, from == "joints", rotations.target(), published});
 }
 
 }  // namespace actformer::ingest

@@ -9,6 +9,7 @@ namespace actformer::ingest {
 struct Ntu13Command : IngestCommand {
     RotationalOptions rotations;
     std::string from = "rotations";
+    bool published = false;
 
     std::vector<Option> list() override;
     std::unique_ptr<Format> open(const std::string& dataset) const override;

@@ -49,22 +49,20 @@ std::string other_persons(const PickleValue& file) {
     return there.empty() ? "nobody" : first_few(there);
 }
 
-/// Upright, with the root where VIBE saw it.
-RotationalMotion upright(const PickleValue& tracked) {
+/// In the camera's frame, the root where VIBE saw it.
+RotationalMotion motion_of(const PickleValue& tracked) {
     const auto poses = smpl_poses(tracked.get("pose").array(), "pose");
     const auto joints = vibe::joint_rows(tracked.get("joints3d").array(), "joints3d");
     if (joints.count() != poses.count())
         throw Error("{} frames of 'pose' and {} of 'joints3d'", poses.count(), joints.count());
     std::vector<double> row(joints.size());
-    auto motion = motion_of(poses, [&](std::uint64_t frame, double* xyz) {
+    return ingest::motion_of(poses, [&](std::uint64_t frame, double* xyz) {
         joints.read(frame, row.data());
         std::copy_n(&row[3 * vibe::mid_hip], 3, xyz);
     });
-    turn(motion, y_down_to_y_up);
-    return motion;
 }
 
-std::variant<std::unique_ptr<PositionClip>, Rejection> joints_of(const PickleValue& tracked,
+std::variant<std::unique_ptr<PositionClip>, Rejection> joints_of(const PickleValue& tracked, Up up,
                                                                  const DatasetHeader& header) {
     const auto rows = vibe::joint_rows(tracked.get("joints3d").array(), "joints3d");
     const auto values = vibe::action2motion18_of(rows);
@@ -72,7 +70,7 @@ std::variant<std::unique_ptr<PositionClip>, Rejection> joints_of(const PickleVal
     chosen.take_type("<f8");
     chosen.shape = {rows.count(), header.topology.joints(), 3};
     chosen.values = {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double)};
-    return clip_below_camera(chosen, header);
+    return position_clip(chosen, up, header);
 }
 
 Representation joints_representation(const Ntu13Options& options) {
@@ -99,9 +97,10 @@ Ntu13Format::Ntu13Format(Ntu13Options options)
 }
 
 std::string Ntu13Format::settings() const {
-    return options_.joints
-               ? fmt::format("ntu13: {} of Action2Motion's joints", joints_representation(options_).name())
-               : "ntu13: " + options_.target.text();
+    const auto what =
+        options_.joints ? fmt::format("{} of Action2Motion's joints", joints_representation(options_).name())
+                        : options_.target.text();
+    return fmt::format("ntu13{}: {}", options_.published ? ", y down" : "", what);
 }
 
 bool Ntu13Format::is_list(const RawText& raw) {
@@ -152,11 +151,13 @@ ParsedClip Ntu13Format::parse(const RawText& raw) const {
                                                                other_persons(file.root()))};
     std::unique_ptr<RawClip> clip;
     if (options_.joints) {
-        auto made = joints_of(*tracked, datasets_[0]);
+        auto made = joints_of(*tracked, options_.published ? Up::y : Up::minus_y, datasets_[0]);
         if (auto* rejection = std::get_if<Rejection>(&made)) return std::move(*rejection);
         clip = std::move(std::get<0>(made));
     } else {
-        clip = whole(upright(*tracked), options_.target);
+        auto motion = motion_of(*tracked);
+        if (!options_.published) turn(motion, y_down_to_y_up);
+        clip = whole(motion, options_.target);
     }
     clip->name = raw.stem;
     clip->label = *label;

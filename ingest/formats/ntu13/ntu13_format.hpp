@@ -17,6 +17,7 @@ struct Ntu13Options {
     bool joints = false;  ///< Action2Motion's 18 joints out of VIBE's, and not SMPL's rotations
     RotationalTarget
         target;  ///< of rotations; joints become limbs, or positions where its representation is xyz
+    bool published = false;  ///< the camera's frame with y down, as the public tools leave it
 };
 
 /// One dataset without splits, as published. Person 1 of every file that the list names, or of all files where there is no list.

@@ -8,8 +8,9 @@ namespace actformer::ingest {
 
 struct UestcCommand : IngestCommand {
     RotationalOptions rotations;
+    bool published = false;
 
-    std::vector<Option> list() override { return rotations.list(); }
+    std::vector<Option> list() override;
     std::unique_ptr<Format> open(const std::string& dataset) const override;
 };
 

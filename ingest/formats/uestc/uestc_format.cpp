@@ -63,7 +63,7 @@ class UestcFormat::Videos {
 
     std::size_t size() const { return poses_.size(); }
 
-    /// Of the first frames, facing the camera in front, upright.
+    /// Of the first frames, facing the camera in front, y down.
     RotationalMotion motion(std::size_t video, std::uint64_t most_frames, const Quaternion& to_front) const {
         const auto poses = smpl_poses(poses_[video].array(), "pose");
         const auto joints = vibe::joint_rows(joints_[video].array(), "joints3d");
@@ -78,7 +78,7 @@ class UestcFormat::Videos {
             joints.read(frame, row.data());
             for (std::size_t d = 0; d < 3; ++d) xyz[d] = row[3 * vibe::mid_hip + d] + way[3 * frame + d];
         });
-        turn(motion, y_down_to_y_up * to_front);
+        turn(motion, to_front);
         return motion;
     }
 
@@ -136,10 +136,12 @@ void UestcFormat::read(const RawText& raw, ClipSink& sink) const {
     try {
         const Pickle file(raw.text, {}, [&](const char* here) { raw.release(here); });
         const Videos videos(file.root(), names_.size());
-        for (std::size_t i = 0; i < videos.size(); ++i) {
-            sink.take(made_or_broken(printable(names_[i]), [&] { return parse(videos, i); }));
-            raw.release_read(videos.bytes(i));
-        }
+        make_in_order(
+            videos.size(), sink, [&](std::size_t i) { return videos.bytes(i); },
+            [&](std::size_t i) {
+                return made_or_broken(printable(names_[i]), [&] { return parse(videos, i); });
+            },
+            [&](std::size_t bytes) { raw.release_read(bytes); });
     } catch (const Error& e) {
         sink.take(Rejection{Rejection::Kind::broken, e.what()});
     }
@@ -156,7 +158,9 @@ ParsedClip UestcFormat::parse(const Videos& videos, std::size_t video) const {
         return Rejection{
             Rejection::Kind::dropped,
             fmt::format("{}: the camera goes round, and where it was is not told", printable(names_[video]))};
-    auto clip = whole(videos.motion(video, frames_[video], *to_front), target_);
+    auto motion = videos.motion(video, frames_[video], *to_front);
+    if (!published_) turn(motion, y_down_to_y_up);
+    auto clip = whole(motion, target_);
     clip->name = stem_of(names_[video]);
     clip->label = name->action;
     clip->fields = {std::to_string(name->action + 1), std::to_string(name->view),

@@ -14,8 +14,9 @@ namespace actformer::ingest {
 
 class UestcFormat : public Format {
   public:
-    UestcFormat(const std::string& dataset, RotationalTarget target)
-        : name_(dataset), target_(std::move(target)) {}
+    /// `published`: the camera's frame with y down, as the public tools leave it; bodies stand upright else.
+    UestcFormat(const std::string& dataset, RotationalTarget target, bool published = false)
+        : name_(dataset), target_(std::move(target)), published_(published) {}
 
     std::vector<std::string_view> extensions() const override { return {".pkl", ".txt"}; }
     std::uint64_t largest_file() const override { return std::uint64_t{1} << 40; }
@@ -27,7 +28,9 @@ class UestcFormat : public Format {
     void settle() override;
 
     const std::vector<DatasetHeader>& datasets() const override { return datasets_; }
-    std::string settings() const override { return "uestc: " + target_.text(); }
+    std::string settings() const override {
+        return (published_ ? "uestc, y down: " : "uestc: ") + target_.text();
+    }
     std::vector<std::string> remarks() const override { return remarks_; }
     void read(const RawText& raw, ClipSink& sink) const override;
     kernels::CleanedBatch clean(kernels::Device&, std::size_t,
@@ -44,6 +47,7 @@ class UestcFormat : public Format {
 
     std::string name_;
     RotationalTarget target_;
+    bool published_;
     std::mutex surveying_;
     std::map<std::string, std::vector<std::string>, std::less<>>
         lists_;                          ///< name of a .txt file -> its lines

@@ -102,7 +102,7 @@ TEST_F(SampledOnDevice, NtuRecon) {
 }
 
 TEST_F(SampledOnDevice, Ntu13) {
-    Ntu13Format format({"ntu13", false, {}});
+    Ntu13Format format({"ntu13", false, {}, false});
     EXPECT_EQ(run(format, samples + "/ntu13").left_out, (Left{{"dropped", 1}}));
     expect_says(rejected(), "person 1 was not tracked, only the number 2");
     agree("ntu13", samples + "/ntu13");
@@ -111,26 +111,26 @@ TEST_F(SampledOnDevice, Ntu13) {
 }
 
 TEST_F(SampledOnDevice, Ntu13Joints) {
-    Ntu13Format format({"ntu13", true, {}});
+    Ntu13Format format({"ntu13", true, {}, false});
     run(format, samples + "/ntu13");
     agree("ntu13-joints", samples + "/ntu13");
     EXPECT_EQ(made().header().topology.joints(), 18U);
 }
 
 TEST_F(SampledOnDevice, HumanAct12) {
-    HumanAct12Format format({"humanact12", From::files, {}, 30});
+    HumanAct12Format format({"humanact12", From::files, {}, 30, false});
     EXPECT_EQ(run(format, samples + "/humanact12").left_out, (Left{{"dropped", 10}}));
     agree("humanact12", samples + "/humanact12");
 }
 
 TEST_F(SampledOnDevice, HumanAct12OutOfItsArchive) {
-    HumanAct12Format format({"humanact12", From::files, {}, 30});
+    HumanAct12Format format({"humanact12", From::files, {}, 30, false});
     EXPECT_TRUE(run(format, samples + "/humanact12/HumanAct12Poses.tar.gz").left_out.empty());
     agree("humanact12", samples + "/humanact12");
 }
 
 TEST_F(SampledOnDevice, HumanAct12Joints) {
-    HumanAct12Format format({"humanact12", From::joints, {}, 30});
+    HumanAct12Format format({"humanact12", From::joints, {}, 30, false});
     const auto summary = run(format, samples + "/humanact12");
     EXPECT_EQ(summary.left_out, (Left{{"dropped", 1}}));
     agree("humanact12-joints", samples + "/humanact12");
@@ -139,11 +139,11 @@ TEST_F(SampledOnDevice, HumanAct12Joints) {
 }
 
 TEST_F(SampledOnDevice, HumanAct12JointsOfThePickleAreThoseOfTheArrays) {
-    HumanAct12Format format({"humanact12", From::joints, {}, 30});
+    HumanAct12Format format({"humanact12", From::joints, {}, 30, false});
     run(format, samples + "/humanact12/HumanAct12Poses");
     const auto from_pickle = made();
     fs::rename(dir / "out", dir / "pickle");
-    HumanAct12Format arrays({"humanact12", From::joints, {}, 30});
+    HumanAct12Format arrays({"humanact12", From::joints, {}, 30, false});
     run(arrays, samples + "/humanact12/HumanAct12");
     const auto from_arrays = made();
     ASSERT_EQ(from_pickle.clips().size(), from_arrays.clips().size());
@@ -244,7 +244,7 @@ TEST_F(PickledOnDevice, Ntu13TakesTheFilesOfItsListAndNamesTheAbsent) {
         "S001C001P001R001A008.pkl\n"
         "ntu_vibe/S009C001P001R001A099.pkl\n");
     add("A/notes.txt", "mine");
-    Ntu13Format format({"ntu13", false, {}});
+    Ntu13Format format({"ntu13", false, {}, false});
     const auto summary = run(format);
     EXPECT_EQ(summary.left_out, (Left{{"broken", 1}, {"dropped", 2}, {"missing", 1}}));
     EXPECT_EQ(made().clips().size(), 1U);
@@ -259,11 +259,20 @@ TEST_F(PickledOnDevice, Ntu13TakesTheFilesOfItsListAndNamesTheAbsent) {
 
 TEST_F(PickledOnDevice, Ntu13WithoutItsListTakesAllFilesAndSaysSo) {
     add("S001C001P001R001A099.pkl", tracked(1));
-    Ntu13Format format({"ntu13", false, {}});
+    Ntu13Format format({"ntu13", false, {}, false});
     const auto summary = run(format);
     EXPECT_EQ(made().clips()[0].label, 10U);
     ASSERT_EQ(summary.remarks.size(), 1U);
     expect_says(summary.remarks[0], "no ntu_vibe_list.txt");
+}
+
+TEST_F(PickledOnDevice, AsPublishedBodiesStayInTheFrameOfTheCamera) {
+    add("S001C001P001R001A099.pkl", tracked(1));
+    Ntu13Format format({"ntu13", false, {}, true});
+    run(format);
+    const auto motion = made().motion(0);
+    const std::vector<float> still{1, 0, 0, 0, 1, 0};
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(motion.at(0, 0, 0)[i], still[i], 1e-7) << i;
 }
 
 // HumanAct12 ------------------------------------------------------------------------------------------------------------------------
@@ -283,7 +292,7 @@ std::string act12(std::size_t poses, std::size_t joints, std::size_t labels, std
 
 TEST_F(PickledOnDevice, HumanAct12ClipsAreNamedAfterTheirClass) {
     add("humanact12poses.pkl", act12(4, 4, 4));
-    HumanAct12Format format({"humanact12", From::files, {}, 15});
+    HumanAct12Format format({"humanact12", From::files, {}, 15, false});
     EXPECT_EQ(run(format).left_out, (Left{{"broken", 1}}));
     expect_says(rejected(), "clip 3: class 15, none of 0 to 11");
     const auto dataset = made();
@@ -295,19 +304,19 @@ TEST_F(PickledOnDevice, HumanAct12ClipsAreNamedAfterTheirClass) {
 
 TEST_F(PickledOnDevice, HumanAct12ListsOfUnequalLengthAreRefused) {
     add("humanact12poses.pkl", act12(3, 2, 3));
-    HumanAct12Format format({"humanact12", From::files, {}, 30});
+    HumanAct12Format format({"humanact12", From::files, {}, 30, false});
     expect_says(fault(format), "'poses' has 3 clips, 'joints3D' 2 and 'y' 3");
 }
 
 TEST_F(PickledOnDevice, HumanAct12OfAnotherBodyIsRefused) {
     add("humanact12poses.pkl", act12(1, 1, 1, 156));
-    HumanAct12Format format({"humanact12", From::files, {}, 30});
+    HumanAct12Format format({"humanact12", From::files, {}, 30, false});
     expect_says(fault(format), "clip 0: 'poses' (1, 156) has 52 joints, as SMPL+H has; SMPL's 24 are meant");
 }
 
 TEST_F(PickledOnDevice, HumanAct12RotationsNeedThePickle) {
     add("P01G01R01F0001T0002A0101.npy", npy("<f8", "(1, 24, 3)", std::string(8 * 72, '\0')));
-    HumanAct12Format format({"humanact12", From::rotations, {}, 30});
+    HumanAct12Format format({"humanact12", From::rotations, {}, 30, false});
     expect_says(fault(format), "there is no .pkl file");
 }
 
