@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 
 #include "base/random/splitmix.hpp"
 
@@ -11,7 +12,8 @@ namespace actformer::ingest::synth {
 
 class Random {
   public:
-    explicit Random(std::initializer_list<std::uint64_t> key) {
+    explicit Random(std::initializer_list<std::uint64_t> key) : Random(std::span(key.begin(), key.size())) {}
+    explicit Random(std::span<const std::uint64_t> key) {
         std::uint64_t state = 0;
         for (const auto k : key) state = mixed(state ^ mixed(k + golden_step));
         stream_ = SplitMix(state);

@@ -324,7 +324,7 @@ std::vector<std::array<Joints, 2>> viewed(const Performance& performance, int se
     return out;
 }
 
-Recording record(const Performance& performance, const Casting& casting, int camera) {
+Recording record(const Performance& performance, const NtuCasting& casting, int camera) {
     Random random{casting.seed,
                   0xCA3E7A,
                   static_cast<std::uint64_t>(casting.setup),

@@ -30,7 +30,7 @@ struct SeenBody {
 using Recording = std::vector<std::vector<SeenBody>>;
 
 /// As seen by camera 1, 2 or 3 (-45, 0 and +45 degrees) of the setup.
-Recording record(const Performance& performance, const Casting& casting, int camera);
+Recording record(const Performance& performance, const NtuCasting& casting, int camera);
 
 /// Where the camera of a setup stands: the true joints in its axes. Without noise, for tests and pictures.
 std::vector<std::array<Joints, 2>> viewed(const Performance& performance, int setup, int camera);

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// Returns how many frames the clip has.
 std::size_t make_text(const ClipId& clip, std::uint64_t seed, std::string& text) {
-    const Casting casting{seed, clip.setup, clip.performer, clip.replication, clip.action};
+    const NtuCasting casting{seed, clip.setup, clip.performer, clip.replication, clip.action};
     const auto recording = record(perform(casting), casting, clip.camera);
     write_skeleton(recording, text);
     return recording.size();

@@ -1,10 +1,10 @@
-// One action performed once: true joint positions on the stage, before any camera sees them.
+// One action of NTU RGB+D performed once: true joint positions on the stage, before any camera sees them.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "ingest/synth/ntu/body.hpp"
+#include "ingest/synth/performer/body.hpp"
 
 namespace actformer::ingest::synth {
 
@@ -16,16 +16,16 @@ struct Performance {
 };
 
 /// What makes a performance the one it is; the camera does not.
-struct Casting {
+struct NtuCasting {
     std::uint64_t seed = 1;
     int setup = 1, performer = 1, replication = 1, action = 1;
 };
 
 /// The second person of a two-person clip: never the performer himself, and on the same side of the xsub
 /// protocol.
-int partner_of(const Casting& casting);
+int partner_of(const NtuCasting& casting);
 
 /// At 30 frames a second, 40 to 180 of them.
-Performance perform(const Casting& casting);
+Performance perform(const NtuCasting& casting);
 
 }  // namespace actformer::ingest::synth

@@ -79,7 +79,7 @@ std::vector<int> all_actions() {
     return out;
 }
 
-Casting casting(int action, int performer, int replication = 1, std::uint64_t seed = 3) {
+NtuCasting casting(int action, int performer, int replication = 1, std::uint64_t seed = 3) {
     return {seed, 1 + performer % 32, performer, replication, action};
 }
 
@@ -268,7 +268,7 @@ TEST(SynthNtu, TwoPersonsTouchWhereAndWhenTheyShould) {
 }
 
 TEST(SynthNtu, CamerasShowTheSamePerformance) {
-    const Casting c = casting(7, 40);
+    const NtuCasting c = casting(7, 40);
     const auto p = perform(c);
     const auto left = viewed(p, c.setup, 1), middle = viewed(p, c.setup, 2);
     const auto spread = [](const Joints& a, const Joints& b) {
@@ -321,7 +321,7 @@ TEST(SynthNtu, TheKinectErrsAsOftenAsPlanned) {
     std::map<Tracking, double> tracking;
     for (int i = 0; i < 480; ++i) {
         const auto id = clip_at(static_cast<std::uint64_t>(i), all_actions());
-        const Casting c{11, id.setup, id.performer, id.replication, id.action};
+        const NtuCasting c{11, id.setup, id.performer, id.replication, id.action};
         const auto p = perform(c);
         const auto recording = record(p, c, id.camera);
         bool gap = false, ghost = false, swap = false;

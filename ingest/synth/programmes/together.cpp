@@ -1,6 +1,6 @@
 // Actions 50 to 60 and 106 to 120: what two persons do with or to each other. The first person acts, the
 // other answers.
-#include "ingest/synth/ntu/programme.hpp"
+#include "ingest/synth/programmes/ntu.hpp"
 
 namespace actformer::ingest::synth {
 namespace {

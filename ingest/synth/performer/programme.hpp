@@ -139,7 +139,7 @@ class Programme {
     Programme& facing(double distance);
     Programme& other();
 
-    int action;
+    int action;  ///< a number of the table it stands in
     double seconds;
     int persons = 1;
     double contact = 0;  ///< when two persons touch, 0 where they do not
@@ -153,14 +153,6 @@ class Programme {
 
 /// `keys` played `n` times between `from` and `to`.
 std::vector<HandKey> cycles(int n, double from, double to, const std::vector<HandKey>& keys);
-
-/// The programme of action 1..120.
-const Programme& programme_of(int action);
-
-// The tables, a file each.
-std::vector<Programme> daily_programmes();     // 1-49
-std::vector<Programme> further_programmes();   // 61-105
-std::vector<Programme> together_programmes();  // 50-60 and 106-120
 
 /// Channels and hands of one person at time `t`, and how far a hand is between two keys.
 struct HandGoal {

@@ -1,6 +1,6 @@
 // Actions 61 to 105: what NTU RGB+D 120 added for one person. The right hand acts; clips are mirrored for the
 // left.
-#include "ingest/synth/ntu/programme.hpp"
+#include "ingest/synth/programmes/ntu.hpp"
 
 namespace actformer::ingest::synth {
 namespace {

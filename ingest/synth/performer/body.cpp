@@ -1,4 +1,4 @@
-#include "ingest/synth/ntu/body.hpp"
+#include "ingest/synth/performer/body.hpp"
 
 #include "ingest/synth/random.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "ingest/synth/ntu/body.hpp"
-#include "ingest/synth/ntu/programme.hpp"
+#include "ingest/synth/performer/body.hpp"
+#include "ingest/synth/performer/programme.hpp"
 
 namespace actformer::ingest::synth {
 

@@ -1,9 +1,6 @@
-#include "ingest/synth/ntu/programme.hpp"
+#include "ingest/synth/performer/programme.hpp"
 
 #include <algorithm>
-
-#include "base/error.hpp"
-#include "ingest/formats/ntu/actions.hpp"
 
 namespace actformer::ingest::synth {
 namespace {
@@ -137,18 +134,6 @@ std::vector<HandKey> cycles(int n, double from, double to, const std::vector<Han
             out.push_back(key);
         }
     return out;
-}
-
-const Programme& programme_of(int action) {
-    static const auto all = [] {
-        std::vector<Programme> sorted;
-        for (const auto& table : {daily_programmes(), further_programmes(), together_programmes()})
-            sorted.insert(sorted.end(), table.begin(), table.end());
-        std::sort(sorted.begin(), sorted.end(), [](auto& a, auto& b) { return a.action < b.action; });
-        return sorted;
-    }();
-    ntu::action_name(action);  // refuses what is no action
-    return all.at(static_cast<std::size_t>(action - 1));
 }
 
 Posture posture_at(const Programme& programme, int person, double t, double amplitude, double tempo,

@@ -1,4 +1,4 @@
-#include "ingest/synth/ntu/footsteps.hpp"
+#include "ingest/synth/performer/footsteps.hpp"
 
 #include <algorithm>
 #include <cmath>

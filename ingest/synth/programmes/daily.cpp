@@ -1,6 +1,6 @@
 // Actions 1 to 49: what one person does at home, and at the doctor's. The right hand acts; clips are mirrored
 // for the left.
-#include "ingest/synth/ntu/programme.hpp"
+#include "ingest/synth/programmes/ntu.hpp"
 
 namespace actformer::ingest::synth {
 namespace {

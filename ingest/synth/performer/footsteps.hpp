@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "ingest/synth/ntu/pose.hpp"
+#include "ingest/synth/performer/pose.hpp"
 
 namespace actformer::ingest::synth {
 

@@ -1,4 +1,4 @@
-#include "ingest/synth/ntu/pose.hpp"
+#include "ingest/synth/performer/pose.hpp"
 
 #include <algorithm>
 #include <cmath>
