@@ -1,15 +1,13 @@
 #include "ingest/synth/ntu/ntu.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "base/error.hpp"
-#include "base/files/file.hpp"
 #include "base/threads/parallel.hpp"
 #include "ingest/formats/ntu/actions.hpp"
+#include "ingest/synth/folder.hpp"
 #include "ingest/synth/ntu/kinect.hpp"
 #include "ingest/synth/ntu/skeleton_writer.hpp"
 
@@ -24,17 +22,6 @@ std::size_t make_text(const ClipId& clip, std::uint64_t seed, std::string& text)
     const auto recording = record(perform(casting), casting, clip.camera);
     write_skeleton(recording, text);
     return recording.size();
-}
-
-void write(const fs::path& file, const std::string& text) {
-    try {
-        write_whole(file, text);
-    } catch (const Error& e) {
-        throw Error(
-            "{}; free some space or make the folder writable, and run the command again: it goes on where it "
-            "was",
-            e.what());
-    }
 }
 
 std::vector<int> checked_actions(const NtuOptions& options) {
@@ -54,32 +41,11 @@ std::vector<int> checked_actions(const NtuOptions& options) {
     return actions;
 }
 
-/// The folder says what its clips were made from; clips of another seed or version must not be mixed with
-/// them.
-void claim_folder(const NtuOptions& options) {
-    std::error_code failed;
-    fs::create_directories(options.folder, failed);
-    if (failed)
-        throw Error("{}: cannot be made a folder ({}); choose another with -o", options.folder.string(),
-                    failed.message());
-    const auto file = options.folder / "synth.json";
-    const nlohmann::ordered_json mine = {
-        {"made_by", "actformer synth ntu"}, {"version", ACTFORMER_VERSION}, {"seed", options.seed}};
-    if (!fs::exists(file)) return write(file, mine.dump(2) + "\n");
-    std::ifstream in(file);
-    const auto theirs = nlohmann::json::parse(in, nullptr, false);
-    if (!theirs.is_object() || theirs != nlohmann::json(mine))
-        throw Error(
-            "{}: the folder holds clips of another seed or version than seed {} of version {}; choose "
-            "another with -o",
-            file.string(), options.seed, ACTFORMER_VERSION);
-}
-
 }  // namespace
 
 NtuSummary synthesise_ntu(const NtuOptions& options, const std::function<void(std::uint64_t)>& progress) {
     const auto actions = checked_actions(options);
-    claim_folder(options);
+    claim_folder(options.folder, "actformer synth ntu", options.seed);
     const auto threads = thread_count(options.threads);
     std::vector<std::string> texts(threads);
     NtuSummary summary;
@@ -90,7 +56,7 @@ NtuSummary synthesise_ntu(const NtuOptions& options, const std::function<void(st
         const bool there = fs::exists(file);
         auto& text = texts[thread];
         const std::size_t frames = there ? 0 : make_text(clip, options.seed, text);
-        if (!there) write(file, text);
+        if (!there) write_file(file, text);
 
         const std::lock_guard lock(counting);
         summary.written += there ? 0 : 1;

@@ -46,6 +46,9 @@ struct Body {
     double shoulder = 0.165, shoulder_drop = 0.02, upper_arm = 0.27, forearm = 0.245, hand = 0.075;
     double tip = 0.07, thumb = 0.05;
     double hip = 0.085, hip_drop = 0.03, thigh = 0.41, shin = 0.40, foot = 0.125, ankle = 0.085;
+    double hip_ahead = 0;   ///< of the pelvis
+    double hanging = 0.95;  ///< how far a hanging arm reaches, in its lengths
+    double ball = 0.72;     ///< how far the ball of the foot is below the ankle, in ankle heights
 
     double scale() const { return height / 1.72; }
     double arm() const { return upper_arm + forearm + hand; }

@@ -61,7 +61,8 @@ Actor actor_of(const Programme& programme, int person, const Manner& manner, con
     b.slouch = 3 + 2.5 * habits.normal() + random.normal();
     b.chin = 2 + 3 * habits.normal() + 1.5 * random.normal();
     b.arms_out = 0.075 + 0.02 * habits.normal() + 0.008 * random.normal();
-    b.elbow_bend = std::clamp(0.95 + 0.015 * habits.normal(), 0.90, 0.98);
+    b.elbow_bend =
+        std::clamp(a.body.hanging + 0.015 * habits.normal(), a.body.hanging - 0.05, a.body.hanging + 0.03);
     a.amplitude = manner.amplitude * (1 + 0.05 * habits.normal());
     a.phase = programme.persons == 2 ? 0 : manner.phase;  // the two keep time with each other
     for (int s = 0; s < 2; ++s)

@@ -34,15 +34,15 @@ Limb two_bones(const Vec& root, const Vec& target, double upper, double lower, c
 
 void legs(Figure& f, const Body& body, const std::array<Foot, 2>& feet) {
     for (int s = 0; s < 2; ++s) {
-        const Vec hip = f.at[pelvis] + f.hips * Vec{outwards(s) * body.hip, -body.hip_drop, 0};
+        const Vec hip = f.at[pelvis] + f.hips * Vec{outwards(s) * body.hip, -body.hip_drop, body.hip_ahead};
         const Rotation foot = about_y(feet[s].heading);
         Vec target = feet[s].place;
         target.y += body.ankle;
 
         // Heels rise with pointed toes: the ankle turns about the ball of the foot, which stays where it was.
         const double down = std::clamp(feet[s].toes_down, -35.0, 70.0);
-        const Vec sole{0, -0.72 * body.ankle,
-                       std::sqrt(std::pow(body.foot, 2) - std::pow(0.72 * body.ankle, 2))};
+        const Vec sole{0, -body.ball * body.ankle,
+                       std::sqrt(std::pow(body.foot, 2) - std::pow(body.ball * body.ankle, 2))};
         const Vec toes = foot * (about_x(down) * sole);
         target += foot * sole - toes;
 
@@ -248,7 +248,7 @@ double sink_needed(const Body& body, const Bearing& bearing, const Place& place,
     const Trunk t = trunk_of(body, bearing, place, posture);
     double sink = 0;
     for (int s = 0; s < 2; ++s) {
-        const Vec hip = t.pelvis + t.hips * Vec{outwards(s) * body.hip, -body.hip_drop, 0};
+        const Vec hip = t.pelvis + t.hips * Vec{outwards(s) * body.hip, -body.hip_drop, body.hip_ahead};
         const double dx = hip.x - feet[s].place.x, dz = hip.z - feet[s].place.z;
         const double reach2 = std::pow(0.994 * body.leg(), 2) - dx * dx - dz * dz;
         const double top = body.ankle + feet[s].place.y + feet[s].slack + std::sqrt(std::max(0.04, reach2));

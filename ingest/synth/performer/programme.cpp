@@ -121,6 +121,11 @@ Programme& Programme::other() {
     return *this;
 }
 
+Programme& Programme::first() {
+    current_ = 0;
+    return *this;
+}
+
 Programme& Programme::touch_at(double t) {
     contact = t;
     return *this;

@@ -118,7 +118,7 @@ struct Part {
     double x = 0, z = 0, heading = 0;  ///< where the person starts on the stage
 };
 
-/// One action. Methods add to the person chosen last: the first one, until `other()`.
+/// One action. Methods add to the person chosen last: the first one, until `other()`, and after `first()` again.
 class Programme {
   public:
     Programme(int number, double duration) : action(number), seconds(duration) {}
@@ -138,6 +138,7 @@ class Programme {
     Programme& stand(double x, double z, double heading);
     Programme& facing(double distance);
     Programme& other();
+    Programme& first();
 
     int action;  ///< a number of the table it stands in
     double seconds;

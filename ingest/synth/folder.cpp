@@ -1,0 +1,44 @@
+#include "ingest/synth/folder.hpp"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+
+namespace actformer::ingest::synth {
+
+namespace fs = std::filesystem;
+
+void write_file(const fs::path& file, std::string_view bytes) {
+    try {
+        fs::create_directories(file.parent_path());
+        write_whole(file, bytes);
+    } catch (const std::exception& e) {
+        throw Error(
+            "{}; free some space or make the folder writable, and run the command again: it goes on where it "
+            "was",
+            e.what());
+    }
+}
+
+void claim_folder(const fs::path& folder, std::string_view made_by, std::uint64_t seed) {
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed)
+        throw Error("{}: cannot be made a folder ({}); choose another with -o", folder.string(),
+                    failed.message());
+    const auto file = folder / "synth.json";
+    const nlohmann::ordered_json mine = {
+        {"made_by", made_by}, {"version", ACTFORMER_VERSION}, {"seed", seed}};
+    if (!fs::exists(file)) return write_file(file, mine.dump(2) + "\n");
+    std::ifstream in(file);
+    const auto theirs = nlohmann::json::parse(in, nullptr, false);
+    if (!theirs.is_object() || theirs != nlohmann::json(mine))
+        throw Error(
+            "{}: the folder holds clips of another seed or version than seed {} of version {}; choose "
+            "another with -o",
+            file.string(), seed, ACTFORMER_VERSION);
+}
+
+}  // namespace actformer::ingest::synth

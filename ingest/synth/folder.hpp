@@ -1,0 +1,18 @@
+// The folder that a stand-in is written into.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace actformer::ingest::synth {
+
+/// Makes it, with synth.json, which says what its files were made from: those of another stand-in, seed or version must not be mixed
+/// with them. `made_by` is the command, as in "actformer synth ntu". Throws Error where the folder holds such files, or cannot be made.
+void claim_folder(const std::filesystem::path& folder, std::string_view made_by, std::uint64_t seed);
+
+/// A file whole or not at all, and the folders it lies in. Throws Error naming it and the remedy.
+void write_file(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace actformer::ingest::synth
