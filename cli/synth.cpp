@@ -12,6 +12,7 @@
 #include "cli/progress.hpp"
 #include "ingest/dataset/origin.hpp"
 #include "ingest/synth/ntu/ntu.hpp"
+#include "ingest/synth/stand_in.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -49,36 +50,41 @@ struct Arguments {
     bool json = false;
 };
 
-void print_summary(const NtuSummary& s, const Arguments& a, double seconds) {
-    if (a.json) {
-        const nlohmann::ordered_json out = {{"folder", a.options.folder.string()},
+template <typename Summary, typename Options>
+void print_summary(const Summary& s, const Options& options, bool json, double seconds) {
+    if (json) {
+        const nlohmann::ordered_json out = {{"folder", options.folder.string()},
                                             {"clips", s.clips},
                                             {"written", s.written},
                                             {"frames", s.frames},
                                             {"bytes", s.bytes},
-                                            {"seed", a.options.seed},
+                                            {"seed", options.seed},
                                             {"seconds", seconds}};
         fmt::print("{}\n", out.dump(2));
         return;
     }
-    fmt::print("{}: {}", a.options.folder.string(), counted(s.clips, "clip"));
+    fmt::print("{}: {}", options.folder.string(), counted(s.clips, "clip"));
     if (s.written < s.clips) fmt::print(", {} of them there already", grouped(s.clips - s.written));
     fmt::print("; wrote {}, {} in {}\n", counted(s.frames, "frame"), bytes(s.bytes), duration(seconds));
 }
 
+/// Runs `make`, which is handed a callback for how many clips are done.
+template <typename Options, typename Make>
+void run(const Options& options, bool json, Make make) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto summary = [&] {
+        Progress progress("synth", "clips", json);
+        const auto total = static_cast<double>(options.clips);
+        return make([&](std::uint64_t done) { progress.update(static_cast<double>(done) / total, done); });
+    }();
+    ingest::write_origin(options.folder, ingest::DataOrigin::Kind::stand_in);
+    print_summary(summary, options, json,
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
 void synth_ntu(Arguments& a) {
     a.options.actions = parse_actions(a.actions);
-    const auto start = std::chrono::steady_clock::now();
-    NtuSummary summary;
-    {
-        Progress progress("synth", "clips", a.json);
-        const auto total = static_cast<double>(a.options.clips);
-        summary = synthesise_ntu(
-            a.options, [&](std::uint64_t done) { progress.update(static_cast<double>(done) / total, done); });
-    }
-    ingest::write_origin(a.options.folder, ingest::DataOrigin::Kind::stand_in);
-    print_summary(summary, a,
-                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    run(a.options, a.json, [&](auto progress) { return synthesise_ntu(a.options, progress); });
 }
 
 void add_ntu(CLI::App* synth) {
@@ -100,12 +106,38 @@ void add_ntu(CLI::App* synth) {
     command->callback([a] { synth_ntu(*a); });
 }
 
+void add_stand_in(CLI::App* synth, const StandIn& stand_in) {
+    struct Given {
+        StandInOptions options;
+        bool json = false;
+    };
+    auto* command = synth->add_subcommand(std::string(stand_in.name), std::string(stand_in.help));
+    auto a = std::make_shared<Given>();
+    a->options.clips = stand_in.clips;
+    command->add_option("-o,--out", a->options.folder, "Folder to write into")->required();
+    command->add_option("--clips", a->options.clips, "How many, " + std::string(stand_in.what_clips_do))
+        ->capture_default_str()
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000}));
+    command->add_option("--seed", a->options.seed, "Another seed, other performances")->capture_default_str();
+    command->add_option("--threads", a->options.threads,
+                        "How many clips are made at once (default: one a processor)");
+    command->add_flag("--json", a->json, "Print JSON");
+    examples(command, std::string(stand_in.examples));
+    command->callback([a, &stand_in] {
+        run(a->options, a->json, [&](auto progress) {
+            a->options.progress = progress;
+            return stand_in.make(a->options);
+        });
+    });
+}
+
 }  // namespace
 
 void add_synth(CLI::App& app) {
     auto* command = app.add_subcommand("synth", "Make licence-free stand-ins in the original raw formats");
     command->require_subcommand(1);
     add_ntu(command);
+    for (const auto& stand_in : stand_ins()) add_stand_in(command, stand_in);
 }
 
 }  // namespace actformer::cli
