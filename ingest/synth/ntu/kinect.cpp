@@ -16,10 +16,11 @@ struct Camera {
     Vec view(const Vec& v) const { return axes.into(v - position); }
 };
 
-/// Setups differ in the height of the tripod and its distance; cameras of one setup stand on a circle.
+/// Setups differ in the height of the tripod and its distance; cameras of one setup stand on a circle. They are about as high as the
+/// middle of a body and look at it, so that y of their axes is up within five degrees: people who stand stand upright.
 Camera camera_of(int setup, int camera) {
     Random random{0x5E7, static_cast<std::uint64_t>(setup)};
-    const double height = random.uniform(1.3, 2.3), distance = random.uniform(2.75, 3.6);
+    const double height = random.uniform(0.75, 1.15), distance = random.uniform(2.75, 3.6);
     const double angle = 45.0 * (camera - 2);
     const Rotation around = about_y(angle);
     const Vec position = around * Vec{0, 0, -distance} + Vec{0, height, 0};

@@ -290,6 +290,16 @@ TEST(SynthNtu, CamerasShowTheSamePerformance) {
     EXPECT_GE(facing, 38);
 }
 
+TEST(SynthNtu, PeopleWhoStandAreUpright) {
+    for (int setup = 1; setup <= 32; ++setup)
+        for (int camera = 1; camera <= 3; ++camera) {
+            const auto first = viewed(perform(casting(10, setup)), setup, camera)[0][0];
+            const Vec up = normalised(first[chest] - first[pelvis]);
+            // The camera's tilt of up to 4 degrees and the bearing's of some more.
+            EXPECT_LT(std::acos(up.y) * 180 / pi, 12) << "setup " << setup << " camera " << camera;
+        }
+}
+
 TEST(SynthNtu, NamesAreUniqueAndFillEverySplit) {
     const auto actions = all_actions();
     for (const std::uint64_t n : {200u, 240u, 480u}) {
