@@ -187,6 +187,9 @@ ParsedClip GtaFormat::public_clip(const hdf5::Reader& file, const std::string& n
 }
 
 ParsedClip GtaFormat::jta_clip(const RawText& raw) const {
+    if (const auto first = raw.text.find_first_not_of(" \t\r\n");
+        first != std::string_view::npos && raw.text[first] == '{')
+        return Rejection{Rejection::Kind::dropped, "a JSON object, and JTA's annotations are lists of rows"};
     auto parsed = read_jta(raw.text);
     if (auto* rejection = std::get_if<Rejection>(&parsed)) return std::move(*rejection);
     auto& file = std::get<JtaFile>(parsed);

@@ -20,7 +20,8 @@ VibeTrack track_of(const ClipId& clip, std::size_t i, std::uint64_t seed) {
     auto motion =
         smpl_solo(programme_of(clip.action), {seed, 0x4713, i}, static_cast<std::uint64_t>(clip.performer));
     Random random{seed, 0x4714, i};
-    place(motion, 17 * random.normal(), {0.3 * random.normal(), -1.0, -3.5});
+    const double heading = 17 * random.normal();
+    place_before_camera(motion, heading, 0.3 * random.normal(), 3.5);
     return vibe_track(in_axes(motion, below_camera));
 }
 

@@ -11,8 +11,11 @@ Programme walking(double seconds, double metres) {
     return Programme(0, seconds).move(wz, {{-0.08, 0}, {1.08, metres}});
 }
 
-Programme running(double seconds, double metres) {
-    return walking(seconds, metres)
+/// At `speed` metres a second all along, but for a slower start and end: the clip is cut out of a longer run.
+Programme running(double seconds, double speed) {
+    const double metres = 1.18 * speed * seconds;
+    return Programme(0, seconds)
+        .move(wz, {{-0.4, 0}, {1.4, metres}})
         .both({{0.06, reach, 0.02, -0.5, 0.3}, {0.94, reach, 0.02, -0.5, 0.3}, {1, rest}})
         .wave(lz, 0.22, 1.2, 0.06, 0.96, 0.5)
         .wave(rz, 0.22, 1.2, 0.06, 0.96)
@@ -50,8 +53,8 @@ std::vector<NamedProgramme> on_foot() {
                                   .move(wx, {{0.0, 0}, {0.25, 0.28}, {0.5, 1.0}, {0.75, 1.5}, {1, 1.35}})
                                   .move(wz, {{0.0, 0}, {0.25, 0.75}, {0.5, 0.95}, {0.75, 0.4}, {1, -0.3}})},
         {"incline", walking(3.4, 2.3).move(bend, {{0, 13}}).wave(py, 0.03, 2.0, 0.0, 1).move(nod, {{0, 12}})},
-        {"run", running(2.4, 4.4)},
-        {"jog", running(2.8, 3.8).move(bend, {{0, 4}})},
+        {"run", running(2.4, 1.75)},
+        {"jog", running(2.8, 1.35).move(bend, {{0, 4}})},
         {"sneak", walking(3.6, 1.9)
                       .hold(py, -0.15)
                       .move(bend, {{0, 26}})
@@ -90,7 +93,7 @@ std::vector<NamedProgramme> in_the_air() {
                      .move(rfp, {{0.4, 0}, {0.5, 45}, {0.62, 20}, {0.66, 0}})},
         {"leap",
          Programme(0, 2.0)
-             .move(wz, {{0.0, 0}, {0.4, 0.7}, {0.72, 1.9}, {1, 2.1}})
+             .move(wz, {{0.0, 0}, {0.95, 1.5}})
              .move(lift, {{0.44, 0}, {0.56, 0.26}, {0.68, 0}})
              .move(py, {{0.2, 0}, {0.4, -0.12}, {0.52, 0.02}, {0.74, -0.16}, {1, 0}})
              .move(bend, {{0.2, 0}, {0.42, 18}, {0.7, 22}, {1, 0}})

@@ -45,6 +45,17 @@ void place(SmplMotion& motion, double heading, const Vec& way) {
     }
 }
 
+void place_before_camera(SmplMotion& motion, double heading, double aside, double distance) {
+    place(motion, heading, {});
+    Vec mean;
+    double nearest = -1e9;
+    for (const auto& pose : motion) {
+        mean += pose.pelvis * (1.0 / static_cast<double>(motion.size()));
+        nearest = std::max(nearest, pose.pelvis.z);
+    }
+    place(motion, 0, {aside - mean.x, -1, -distance - nearest});
+}
+
 double heading_of(const SmplPose& pose) {
     // Of the body's left, which stays level when it bends.
     const Vec left = pose.turned[0].x;

@@ -30,6 +30,10 @@ SmplMotion smpl_solo(const Programme& programme, const std::vector<std::uint64_t
 /// Turned about y by `heading` degrees, and then moved by `way`.
 void place(SmplMotion& motion, double heading, const Vec& way);
 
+/// Turned by `heading`, and moved so that its middle is `aside` of what a camera at the origin looks at, 1 m below it, and nobody comes
+/// nearer to it than `distance`.
+void place_before_camera(SmplMotion& motion, double heading, double aside, double distance);
+
 /// Which way the pelvis faces, degrees about y from z.
 double heading_of(const SmplPose& pose);
 

@@ -41,7 +41,7 @@ Video video_at(std::size_t i, std::uint64_t seed) {
     // The camera of a view stands 45 degrees further round the person, who is seen turned the other way.
     double heading = 8 * random.normal();
     if (video.side != 1) heading -= 45.0 * video.view;
-    place(motion, heading, {0.2 * random.normal(), -1.0, -4});
+    place_before_camera(motion, heading, 0.2 * random.normal(), 4);
     video.track = vibe_track(in_axes(motion, below_camera));
     return video;
 }

@@ -132,10 +132,12 @@ TEST_F(GtaOnDevice, TakesLengthsFromTheirFile) {
     }
     write_public(dir / "raw/a.h5", "x_A001", 2, 9);
     fs::copy(dir / "gta_adjacency.h5", dir / "raw/gta_adjacency.h5");
+    write_file(dir / "raw/synth.json", "{\"made_by\": \"actformer synth gta\"}");
     options.lengths = (dir / "gta_adjacency.h5").string();
     write_origin(dir / "raw", DataOrigin::Kind::stand_in);
     const auto summary = run(dir / "raw");
-    EXPECT_EQ(summary.left_out.at("dropped"), 1U);
+    EXPECT_EQ(summary.left_out, (std::map<std::string, std::uint64_t>{{"dropped", 2}}))
+        << "a JSON object is no annotation";
     EXPECT_NE(read_file(dir / "out/rejected.csv").find("--lengths FILE takes them"), std::string::npos);
     const Dataset dataset(dir / "out/gta-2p");
     EXPECT_EQ(dataset.header().origin.text(), "stand-in");
