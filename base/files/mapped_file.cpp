@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <utility>
 
 #include "base/error.hpp"
@@ -77,6 +78,7 @@ void MappedFile::release_read(std::size_t bytes) const {
 }
 
 void MappedFile::release(const char* here) const {
+    if (std::less<>()(here, memory_) || std::less<>()(memory_ + size_, here)) return;  // in memory of its own
     const auto bytes = static_cast<std::size_t>(here - memory_), beyond = whole_pages(bytes);
     const auto passed = beyond == bytes ? bytes : beyond - whole_pages(1);
     if (passed < released_) released_ = 0;  // read from the beginning again

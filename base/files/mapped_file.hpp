@@ -20,7 +20,7 @@ class MappedFile {
     std::string_view text() const { return {memory_, size_}; }
 
     /// Bytes before `here` are not needed for now: the memory they take becomes free, some megabytes at a time. They can still be
-    /// read. Not from several threads at once.
+    /// read. Nothing happens where `here` lies elsewhere. Not from several threads at once.
     void release(const char* here) const;
 
     /// `bytes` more of it, wherever they lie, are not needed for now: from time to time the memory that any of it takes becomes free.

@@ -216,9 +216,7 @@ void BabelFormat::read(const RawText& raw, ClipSink& sink) const {
         if (file == annotations_.end()) throw Error("it could not be read when the files were looked at");
         return read_annotation_file(file->second, sink);
     }
-    std::vector<std::string> doubts;
-    const auto track = track_of(raw, doubts);
-    for (const auto i : of_file_.at(raw.index)) cut(sequences_[i], track, doubts, sink);
+    read_amass_file(raw.text, [&](const AmassRecording& recording) { cut_all(raw, recording, sink); });
 }
 
 /// What of its labels gives no clip, and why.
@@ -248,23 +246,18 @@ void BabelFormat::read_annotation_file(const AnnotationFile& file, ClipSink& sin
     }
 }
 
-RotationalTrack BabelFormat::track_of(const RawText& raw, std::vector<std::string>& doubts) const {
-    auto file = read_amass_file(raw.text);
-    if (file.smplx)
+void BabelFormat::cut_all(const RawText& raw, const AmassRecording& recording, ClipSink& sink) const {
+    std::vector<std::string> doubts;
+    if (recording.smplx)
         doubts.emplace_back(
             "this is the SMPL-X package, whose frame rates are not always those that the labels were made "
             "with; take "
             "SMPL+H G");
-    if (!options_.published) {
-        auto motion = resampled(file.rotation_vectors(), file.fps, options_.fps);
-        turn(motion, z_up_to_y_up);
-        return {motion, target_};
-    }
-    const auto wanted = zoomed_frames(file.frames, file.fps, options_.fps);
-    file.vectors = zoomed(file.vectors, file.frames, wanted);
-    file.translation = zoomed(file.translation, file.frames, wanted);
-    file.frames = wanted;
-    return {as_recorded(file.rotation_vectors()), target_};
+    auto motion = options_.published ? zoomed(recording.motion, recording.fps, options_.fps)
+                                     : resampled(recording.motion, recording.fps, options_.fps);
+    if (!options_.published) turn(motion, z_up_to_y_up);
+    const RotationalTrack track(motion, target_);
+    for (const auto i : of_file_.at(raw.index)) cut(sequences_[i], track, doubts, sink);
 }
 
 void BabelFormat::cut(const Labelled& labelled, const RotationalTrack& track,

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <unordered_map>
 
+#include "ingest/formats/babel/amass_file.hpp"
 #include "ingest/formats/babel/annotations.hpp"
 #include "ingest/formats/babel/sequence_files.hpp"
 #include "ingest/formats/format.hpp"
@@ -65,7 +66,7 @@ class BabelFormat : public Format {
     void find_files();
     void remark();
     void read_annotation_file(const AnnotationFile& file, ClipSink& sink) const;
-    RotationalTrack track_of(const RawText& raw, std::vector<std::string>& doubts) const;
+    void cut_all(const RawText& raw, const AmassRecording& recording, ClipSink& sink) const;
     void cut(const Labelled& labelled, const RotationalTrack& track, const std::vector<std::string>& doubts,
              ClipSink& sink) const;
 

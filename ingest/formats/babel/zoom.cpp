@@ -75,4 +75,17 @@ std::vector<double> zoomed(std::span<const double> values, std::uint64_t frames,
     return out;
 }
 
+RotationalMotion zoomed(const RotationVectors& file, double from, double to) {
+    const std::size_t numbers = 3 * file.joints;
+    std::vector<double> vectors(file.frames * numbers), places(file.frames * 3);
+    for (std::uint64_t t = 0; t < file.frames; ++t) file.read(t, &vectors[t * numbers], &places[t * 3]);
+    const auto wanted = zoomed_frames(file.frames, from, to);
+    vectors = zoomed(vectors, file.frames, wanted);
+    places = zoomed(places, file.frames, wanted);
+    return as_recorded({wanted, file.joints, [&](std::uint64_t t, double* to_vectors, double* to_place) {
+                            std::copy_n(&vectors[t * numbers], numbers, to_vectors);
+                            std::copy_n(&places[t * 3], 3, to_place);
+                        }});
+}
+
 }  // namespace actformer::ingest

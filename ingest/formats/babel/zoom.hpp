@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "ingest/formats/rotational/rotational_motion.hpp"
+
 namespace actformer::ingest {
 
 /// round(frames * to / from), half to even as Python rounds; 0 for a recording too short.
@@ -17,5 +19,8 @@ std::uint64_t zoomed_frames(std::uint64_t frames, double from, double to);
 /// `values` (frames, columns) at `wanted` frames, evenly from the first to the last: the interpolating cubic B-spline whose samples are
 /// mirrored at both ends (Unser 1999).
 std::vector<double> zoomed(std::span<const double> values, std::uint64_t frames, std::uint64_t wanted);
+
+/// A recording at about `to` frames a second in place of `from`: rotation vectors and translation. Throws Error as as_recorded does.
+RotationalMotion zoomed(const RotationVectors& file, double from, double to);
 
 }  // namespace actformer::ingest

@@ -273,8 +273,8 @@ TEST_F(BabelOnDevice, TellsThePackagesApart) {
     ASSERT_EQ(broken.size(), 6U) << fmt::format("{}", fmt::join(broken, "\n"));
     EXPECT_TRUE(any_has(broken, "SMPL+H G (this is the SMPL-X package; take SMPL+H G)"));
     EXPECT_TRUE(any_has(broken, "no 'mocap_framerate' in it"));
-    EXPECT_TRUE(any_has(broken, "'poses' is (121, 147) of type <f8"));
-    EXPECT_TRUE(any_has(broken, "'mocap_framerate' is 0, no number of frames a second"));
+    EXPECT_TRUE(any_has(broken, "'poses': (121, 147) of type <f8"));
+    EXPECT_TRUE(any_has(broken, "'mocap_framerate': 0, no number of frames a second"));
     EXPECT_TRUE(any_has(broken, "'poses' has no frames")) << fmt::format("{}", fmt::join(broken, "\n"));
 }
 
