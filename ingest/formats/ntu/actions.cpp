@@ -53,10 +53,10 @@ bool two_persons(int action) {
 }
 
 std::vector<std::string> class_names(int persons) {
-    std::vector<std::string> names;
+    std::vector<std::string> out;
     for (int action = 1; action <= actions; ++action)
-        if (two_persons(action) == (persons == 2)) names.emplace_back(action_name(action));
-    return names;
+        if (two_persons(action) == (persons == 2)) out.emplace_back(action_name(action));
+    return out;
 }
 
 std::uint32_t label_of(int action) {
