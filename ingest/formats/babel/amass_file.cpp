@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/numpy/npz.hpp"
+#include "base/text/html.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -104,6 +105,7 @@ void check(const Head& head) {
 }  // namespace
 
 void read_amass_file(std::string_view bytes, const std::function<void(const AmassRecording&)>& use) {
+    if (is_html(bytes)) throw Error("{}", html_in_place_of("a recording"));
     const auto head = read_head(bytes);
     check(head);
     const auto joints = head.layout->joints;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "base/text/html.hpp"
 #include "base/text/loose_json.hpp"
 #include "base/text/printable.hpp"
 
@@ -62,6 +63,7 @@ Sequence sequence(const std::string& id, const Json& json) {
 }  // namespace
 
 std::variant<Annotations, Rejection> read_annotations(std::string_view text) {
+    if (is_html(text)) return Rejection{Rejection::Kind::broken, html_in_place_of("annotations")};
     Json json;
     try {
         json = Json::parse(text);

@@ -15,11 +15,7 @@ namespace actformer::ingest {
 namespace {
 
 bool is_json(const RawText& raw) {
-    constexpr std::string_view ending = ".json";
-    if (raw.path.size() < ending.size()) return false;
-    const auto end = raw.path.substr(raw.path.size() - ending.size());
-    return std::equal(end.begin(), end.end(), ending.begin(),
-                      [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; });
+    return raw.ends_in(".json");
 }
 
 Rejection dropped(std::string reason) {

@@ -121,7 +121,7 @@ void GtaFormat::read(const RawText& raw, ClipSink& sink) const {
             (*whole)->fields = {printable(raw.stem)};
         sink.take(std::move(clip));
     };
-    if (raw.path.ends_with("json") || raw.path.ends_with("JSON")) return take(jta_clip(raw));
+    if (raw.ends_in(".json")) return take(jta_clip(raw));
     std::optional<hdf5::Reader> file;
     if (raw.on_disk)
         file.emplace(std::filesystem::path(raw.path));

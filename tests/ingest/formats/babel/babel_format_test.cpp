@@ -212,6 +212,7 @@ TEST_F(BabelOnDevice, CountsAndNamesWhatGivesNoClip) {
     write_file(dir / "raw/extra_train.json",
                R"({"1": {"feat_p": "a/b/c/d_poses.npz", "seq_anns": [], "frame_anns": null}})");
     write_file(dir / "raw/action_label_2_idx.json", R"({"walk": 0})");
+    write_file(dir / "raw/val.json", "<!DOCTYPE html><html>quota exceeded</html>");
     write_file(dir / "raw/cut.json", R"({"1": {"feat_p": )");
     options.categories = "walk";
     const auto summary = run();
@@ -231,7 +232,8 @@ TEST_F(BabelOnDevice, CountsAndNamesWhatGivesNoClip) {
     for (const auto& reason : wanted) EXPECT_TRUE(any_has(dropped, reason)) << reason;
     EXPECT_EQ(dropped.size(), wanted.size());
     const auto broken = left_out("broken");
-    ASSERT_EQ(broken.size(), 3U);
+    ASSERT_EQ(broken.size(), 4U);
+    EXPECT_TRUE(any_has(broken, "an HTML page in place of annotations"));
     EXPECT_TRUE(any_has(broken, "sequence 4: label 0: 'start_t' is no number of seconds"));
     EXPECT_TRUE(any_has(broken, "sequence 5: 'feat_p' is no text"));
     EXPECT_TRUE(any_has(broken, "no JSON: "));
