@@ -77,7 +77,7 @@ void print_table(const Clips& clips, const Names& names) {
 void run(const Options& options) {
     kernels::Device device(options.device);
     eval::FeatureExtractor extractor(device, options.recogniser, options.batch);
-    const auto motions = options.open(device);
+    const auto motions = options.open(device, extractor);
     Progress progress("classify", "sequences", options.json);
     const auto clips = eval::classify(*motions, extractor, [&](std::uint64_t done, std::uint64_t all) {
         progress.update(static_cast<double>(done) / static_cast<double>(all), done);

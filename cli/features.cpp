@@ -39,7 +39,7 @@ void print(const Options& options, const eval::FeaturesSummary& s) {
 void run(const Options& options) {
     kernels::Device device(options.device);
     eval::FeatureExtractor extractor(device, options.recogniser, options.batch);
-    const auto motions = options.open(device);
+    const auto motions = options.open(device, extractor);
     Progress progress("features", "sequences", options.json);
     const eval::FeaturesTarget target{&extractor, options.out};
     const auto summary =

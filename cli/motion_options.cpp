@@ -7,10 +7,13 @@
 
 namespace actformer::cli {
 
-std::unique_ptr<eval::MotionSource> MotionOptions::open(kernels::Device& on) const {
+std::unique_ptr<eval::MotionSource> MotionOptions::open(kernels::Device& on,
+                                                        const eval::FeatureExtractor& extractor) const {
     if (!std::filesystem::exists(input)) throw Error("{}: no such file or folder", input.string());
     if (!std::filesystem::is_directory(input)) return eval::open_motions(input, {frames, batch, {}});
-    return eval::open_windows(on, {ingest::one_dataset_at(input), split, window, batch});
+    const auto dataset = ingest::one_dataset_at(input);
+    const auto joints = extractor.joints_of(eval::describe(ingest::Dataset(dataset)));
+    return eval::open_windows(on, {dataset, split, window, batch, joints});
 }
 
 void add_motion_options(CLI::App* command, MotionOptions& options) {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "eval/scoring/motion_source.hpp"
+#include "eval/scoring/feature_extractor.hpp"
 
 namespace actformer::cli {
 
@@ -17,7 +17,8 @@ struct MotionOptions {
 
     /// The input: a dataset's split in windows, or a file's motions. Throws Error where there is neither, and as
     /// open_windows and open_motions do.
-    std::unique_ptr<eval::MotionSource> open(kernels::Device& on) const;
+    std::unique_ptr<eval::MotionSource> open(kernels::Device& on,
+                                             const eval::FeatureExtractor& extractor) const;
 };
 
 void add_motion_options(CLI::App* command, MotionOptions& options);

@@ -88,7 +88,7 @@ bool from_features(const Options& options) {
     if (features && (f.real.empty() || f.generated.empty()))
         throw Error("score takes --real-features and --generated-features together");
     if (features) return true;
-    if (m.recogniser.empty() || m.real.dataset.empty())
+    if ((m.recogniser.empty() && m.single_recogniser.empty()) || m.real.dataset.empty())
         throw Error(
             "score takes --recogniser, --real and --generated, or two features files (see actformer score "
             "--help)");
@@ -153,10 +153,12 @@ void print_classes(const nlohmann::ordered_json& classes) {
 void print_text(const eval::Scored& scored) {
     const auto& report = scored.report;
     const auto& real = scored.json["real"];
-    fmt::print("{} of {}, {}; the recogniser is right on {} % of the real ones\n",
-               counted(report.repeats.size(), "repeat"), counted(report.classes.size(), "class"),
-               counted(real["samples"].get<std::uint64_t>(), "real sample"),
-               report.real_accuracy ? fmt::format("{:.1f}", 100 * *report.real_accuracy) : "?");
+    fmt::print(
+        "{} of {}, {}; {}\n", counted(report.repeats.size(), "repeat"),
+        counted(report.classes.size(), "class"), counted(real["samples"].get<std::uint64_t>(), "real sample"),
+        report.real_accuracy
+            ? fmt::format("the recogniser is right on {:.1f} % of the real ones", 100 * *report.real_accuracy)
+            : "no recogniser tells their classes");
     print_metrics(report);
     if (report.classes.size() <= 30) print_classes(scored.json["per_class"]);
     if (!report.warnings.empty()) fmt::print("\n");
@@ -212,8 +214,9 @@ void add_motion_options(CLI::App* command, Options& options) {
     command->add_option("--recogniser", request.recogniser, "Folder of its training, or its weights")
         ->type_name("RUN|WEIGHTS.h5");
     command
-        ->add_option("--single-recogniser", request.single_recogniser,
-                     "One-person recogniser, for FIDa of motions of several persons")
+        ->add_option(
+            "--single-recogniser", request.single_recogniser,
+            "One-person recogniser, for FIDa of motions of several persons; alone, nothing else is measured")
         ->type_name("RUN|WEIGHTS.h5");
     command->add_option("--real", request.real.dataset, "Dataset of real clips")->type_name("DATASET");
     command->add_option("--split", request.real.split, "Split of the dataset")->capture_default_str();
@@ -265,6 +268,7 @@ void add_score(CLI::App& app, const eval::GenerateSets& generate) {
         "motions.h5\n"
         "  actformer score --recogniser recogniser --real ntu/ntu-1p --split xsub/train --generator run "
         "--repeats 20 -o scores.json\n"
+        "  actformer score --single-recogniser ntu15 --real gta-3p --generator run\n"
         "  actformer score --real-features real.h5 --generated-features generated.h5\n"
         "Real clips are cut into windows; their features are kept in $XDG_CACHE_HOME/actformer/features "
         "(or ~/.cache), so that the next scoring starts at once.\n"

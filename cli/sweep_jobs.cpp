@@ -55,8 +55,10 @@ struct Commands {
     }
 
     std::vector<Words> operator()(const ScoringWork& work) const {
-        Words words{program,   "score",   "--recogniser", work.recogniser, "--real",
-                    work.data, "--split", work.split,     "--window",      std::to_string(work.window)};
+        Words words{program, "score"};
+        add_option(words, "--recogniser", work.recogniser);
+        words.insert(words.end(),
+                     {"--real", work.data, "--split", work.split, "--window", std::to_string(work.window)});
         add_option(words, "--single-recogniser", work.single_recogniser);
         add_option(words, "--device", work.device);
         if (work.motions.empty()) {

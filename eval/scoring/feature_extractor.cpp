@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "eval/metrics/fid.hpp"
 #include "eval/run_weights.hpp"
+#include "eval/scoring/common_view.hpp"
 #include "eval/stgcn/graph.hpp"
 #include "ingest/dataset/motions_file.hpp"
 
@@ -25,7 +26,16 @@ FeatureExtractor::FeatureExtractor(kernels::Device& device, const std::filesyste
       recogniser_(open_recogniser(device, weights_, batch)),
       persons_(persons) {}
 
+ingest::Joints FeatureExtractor::joints_of(const MotionsInfo& motions) const {
+    return sees_common_joints(recogniser().parents, motions) ? ingest::Joints::common15 : ingest::Joints::own;
+}
+
 void FeatureExtractor::check_fits(const MotionsInfo& motions) const {
+    if (joints_of(motions) == ingest::Joints::own) return check_seen(motions);
+    check_seen(in_common_joints(motions));
+}
+
+void FeatureExtractor::check_seen(const MotionsInfo& motions) const {
     const auto& r = recogniser();
     if (motions.representation && *motions.representation != r.representation)
         throw Error(
@@ -67,10 +77,13 @@ void FeatureExtractor::check_classes(const MotionsInfo& motions) const {
 }
 
 Recognised FeatureExtractor::extract(const MotionBatch& batch, const MotionsInfo& motions) {
-    const auto persons = motions.channels / recogniser().channels;
+    const bool common = joints_of(motions) == ingest::Joints::common15;
+    const auto channels = common ? 3 * motions.persons : motions.channels;
+    const auto persons = channels / recogniser().channels;
     const auto sequences = static_cast<std::uint32_t>(batch.rows.size()) * persons;
-    auto seen = batch.on_device ? recogniser_->recognise(*batch.on_device, sequences, batch.frames)
-                                : recogniser_->recognise(batch.values, sequences, batch.frames);
+    auto seen = common ? recogniser_->recognise(in_common_joints(batch, motions), sequences, batch.frames)
+                : batch.on_device ? recogniser_->recognise(*batch.on_device, sequences, batch.frames)
+                                  : recogniser_->recognise(batch.values, sequences, batch.frames);
     if (persons_ == Persons::together) return seen;
     return {largest_of_group(seen.features, features(), persons), {}};
 }

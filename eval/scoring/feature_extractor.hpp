@@ -7,6 +7,7 @@
 
 #include "eval/recogniser.hpp"
 #include "eval/scoring/motion_source.hpp"
+#include "ingest/dataset/common_joints.hpp"
 
 namespace actformer::eval {
 
@@ -29,20 +30,26 @@ class FeatureExtractor {
     std::uint32_t features() const { return recogniser().features; }
     std::uint32_t classes() const { return persons_ == Persons::apart ? 0 : recogniser().classes; }
 
-    /// Throws Error, one line, unless the recogniser can be shown these motions: representation, channels, joints and tree
-    /// (for NTU's 25 joints, whose hands the recogniser links otherwise, either tree).
+    /// The joints that the recogniser must be shown of such motions: the common ones where it was trained on those.
+    ingest::Joints joints_of(const MotionsInfo& motions) const;
+
+    /// Throws Error, one line, unless the recogniser can be shown these motions, or the common joints of them: representation,
+    /// channels, joints and tree (for NTU's 25 joints, whose hands the recogniser links otherwise, either tree).
     void check_fits(const MotionsInfo& motions) const;
 
     /// Throws Error unless the motions' labels and classes are the recogniser's. Of Persons::apart they do not matter.
     void check_classes(const MotionsInfo& motions) const;
 
-    /// A batch of motions that fit: features (rows, features()) and logits (rows, classes()).
+    /// A batch of motions that fit: features (rows, features()) and logits (rows, classes()). Motions of which the common
+    /// joints are seen come in host memory.
     Recognised extract(const MotionBatch& batch, const MotionsInfo& motions);
 
     /// The same of motions in memory: values (count, channels, frames, K), persons together.
     Recognised extract(std::span<const float> values, std::uint32_t count, std::uint32_t frames);
 
   private:
+    void check_seen(const MotionsInfo& motions) const;
+
     std::filesystem::path weights_;
     std::string checksum_;
     std::unique_ptr<Recogniser> recogniser_;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "ingest/dataset/representation.hpp"
+#include "ingest/dataset/body_model.hpp"
 #include "kernels/device.hpp"
 
 namespace actformer::eval {
@@ -28,6 +28,7 @@ struct MotionsInfo {
     std::uint32_t shortest = 0, longest = 0;  ///< frames
     std::string fingerprint;                  ///< of the file or of the dataset
     std::string view;                         ///< what is shown of each clip, as in "whole motions"
+    std::optional<ingest::BodyModel> body;    ///< that gives joint positions, where it is known
 };
 
 /// Some motions of one length.

@@ -85,6 +85,7 @@ void MotionsFileSource::describe() {
     if (!subjects) return;
     info_.parents = subjects->representation.node_parents(subjects->topology);
     info_.persons = subjects->persons;
+    info_.body = *subjects;
     if (options_.labels.empty()) info_.classes = subjects->classes;
 }
 

@@ -52,52 +52,60 @@ void warn_of_lengths(ScoreReport& report, std::uint32_t window, const StoredFeat
 class Sides {
   public:
     Sides(const ScoreMotions& request, kernels::Device& device, const ScoreProgress& progress)
-        : request_(request),
-          device_(device),
-          progress_(progress),
-          whole_(device, request.recogniser, request.real.batch) {
+        : request_(request), device_(device), progress_(progress) {
+        if (!request.recogniser.empty()) whole_.emplace(device, request.recogniser, request.real.batch);
         if (!request.single_recogniser.empty())
             single_.emplace(device, request.single_recogniser, request.real.batch, Persons::apart);
         check();
     }
 
     const std::vector<std::string>& classes() const { return classes_; }
-    const FeatureExtractor& whole() const { return whole_; }
+    const std::optional<FeatureExtractor>& whole() const { return whole_; }
     const std::optional<FeatureExtractor>& single() const { return single_; }
 
     Observed real() {
-        auto cached = real_features(whole_, "real.h5");
+        auto cached = real_features(first(), "real.h5");
         if (!request_.keep.empty()) {
             fs::create_directories(request_.keep);
             copy_whole(cached.file, request_.keep / "real.h5");
         }
         auto out = observed(std::move(cached.features), request_.real.dataset.string());
-        if (single_) add_groups(out, std::move(real_features(*single_, "real-groups.h5").features));
-        return out;
+        if (whole_ && single_) add_groups(out, real_features(*single_, "real-groups.h5").features);
+        return with_classes(std::move(out));
     }
 
     Observed generated(std::size_t repeat) {
         const auto& set = request_.generated[repeat];
-        const auto whole = file_of(set, whole_);
+        const auto file = file_of(set, first());
         make_missing(set);
-        auto stored = read_features(whole);
+        auto stored = read_features(file);
         if (repeat == 0) {
-            first_.shortest = stored.shortest;
-            first_.longest = stored.longest;
-            if (!request_.keep.empty()) copy_whole(whole, request_.keep / "generated.h5");
+            first_repeat_.shortest = stored.shortest;
+            first_repeat_.longest = stored.longest;
+            if (!request_.keep.empty()) copy_whole(file, request_.keep / "generated.h5");
         }
         auto out = observed(std::move(stored), set.name);
-        if (single_) add_groups(out, read_features(file_of(set, *single_)));
-        return out;
+        if (whole_ && single_) add_groups(out, read_features(file_of(set, *single_)));
+        return with_classes(std::move(out));
     }
 
     /// What is shown of each motion, set by set.
     const std::vector<std::string>& views() const { return views_; }
 
     /// The first repeat's lengths.
-    const StoredFeatures& first() const { return first_; }
+    const StoredFeatures& first_repeat() const { return first_repeat_; }
 
   private:
+    /// Whose features are the samples; the one-person recogniser's are the groups where it is not the only one.
+    FeatureExtractor& first() { return whole_ ? *whole_ : *single_; }
+
+    /// Features of groups have no logits, which would tell how many classes there are.
+    Observed with_classes(Observed side) const {
+        side.of_groups = !whole_;
+        if (side.of_groups) side.samples.classes = classes_.size();
+        return side;
+    }
+
     static void add_groups(Observed& side, StoredFeatures stored) {
         side.groups = std::move(stored.samples);
         side.groups->classes = side.samples.classes;
@@ -107,7 +115,9 @@ class Sides {
     void check() {
         const auto real = open_windows(device_, request_.real);
         classes_ = real->info().classes;
-        check_side(real->info());
+        if (whole_) whole_->check_fits(open_windows(device_, windows_for(*whole_))->info());
+        if (whole_) whole_->check_classes(real->info());
+        if (single_) single_->check_fits(open_windows(device_, windows_for(*single_))->info());
         if (single_ && real->info().persons < 2)
             throw Error("{}: has one person a clip, for which --single-recogniser has no use",
                         request_.real.dataset.string());
@@ -119,8 +129,8 @@ class Sides {
     }
 
     void check_side(const MotionsInfo& motions) const {
-        whole_.check_fits(motions);
-        whole_.check_classes(motions);
+        if (whole_) whole_->check_fits(motions);
+        if (whole_) whole_->check_classes(motions);
         if (single_) single_->check_fits(motions);
     }
 
@@ -141,8 +151,14 @@ class Sides {
         return [this, what](std::uint64_t done, std::uint64_t all) { progress_(what, done, all); };
     }
 
+    WindowsOptions windows_for(const FeatureExtractor& extractor) const {
+        auto windows = request_.real;
+        windows.joints = extractor.joints_of(describe(ingest::Dataset(windows.dataset)));
+        return windows;
+    }
+
     CachedFeatures real_features(FeatureExtractor& extractor, const char* elsewhere) {
-        return cached_features(extractor, request_.real, request_.work / elsewhere, device_,
+        return cached_features(extractor, windows_for(extractor), request_.work / elsewhere, device_,
                                tell("real windows"));
     }
 
@@ -156,7 +172,7 @@ class Sides {
     /// The features of a set that are not there yet, in one pass over its motions.
     void make_missing(const MotionSet& set) {
         std::vector<FeaturesTarget> missing;
-        for (auto* extractor : {&whole_, single_ ? &*single_ : nullptr})
+        for (auto* extractor : {whole_ ? &*whole_ : nullptr, single_ ? &*single_ : nullptr})
             if (extractor && !fs::exists(file_of(set, *extractor)))
                 missing.push_back({extractor, file_of(set, *extractor)});
         if (!missing.empty()) write_features(*set.open(), missing, tell(set.name));
@@ -165,24 +181,34 @@ class Sides {
     const ScoreMotions& request_;
     kernels::Device& device_;
     const ScoreProgress& progress_;
-    FeatureExtractor whole_;
-    std::optional<FeatureExtractor> single_;
+    std::optional<FeatureExtractor> whole_, single_;
     std::vector<std::string> classes_, views_;
-    StoredFeatures first_;
+    StoredFeatures first_repeat_;  ///< its frames
 };
+
+/// As dataset.json has it; empty where it tells none.
+Json origin_json(const ingest::DataOrigin& origin) {
+    Json out = Json::object();
+    if (origin.kind) out["data"] = ingest::name_of(*origin.kind);
+    if (!origin.skeleton.empty()) out["skeleton"] = origin.skeleton;
+    return out;
+}
 
 Json provenance_of_motions(const ScoreMotions& request, const Sides& sides, const std::string& device) {
     const ingest::Dataset dataset(request.real.dataset);
     const auto recogniser = [](const FeatureExtractor& extractor) {
         return Json{{"path", extractor.weights().string()}, {"checksum", extractor.checksum()}};
     };
-    Json out{{"version", ACTFORMER_VERSION}, {"recogniser", recogniser(sides.whole())}};
+    Json out{{"version", ACTFORMER_VERSION}};
+    if (sides.whole()) out["recogniser"] = recogniser(*sides.whole());
     if (sides.single()) out["single_recogniser"] = recogniser(*sides.single());
     out["real"] = {{"dataset", dataset.header().name},
                    {"path", request.real.dataset.string()},
                    {"fingerprint", dataset.fingerprint()},
                    {"split", request.real.split},
                    {"window", request.real.window}};
+    if (const auto origin = origin_json(dataset.header().origin); !origin.empty())
+        out["real"]["origin"] = origin;
     out["generated"] = Json::array();
     for (std::size_t i = 0; i < request.generated.size(); ++i) {
         const auto& set = request.generated[i];
@@ -205,7 +231,7 @@ Scored score_motions(const ScoreMotions& request, kernels::Device& device, const
     out.report = score_repeats(
         real, sides.classes(), request.generated.size(), [&](std::size_t i) { return sides.generated(i); },
         request.options);
-    warn_of_lengths(out.report, request.real.window, sides.first());
+    warn_of_lengths(out.report, request.real.window, sides.first_repeat());
     out.json = to_json(out.report);
     out.json["provenance"] = provenance_of_motions(request, sides, device.info().name);
     return out;

@@ -10,9 +10,12 @@ namespace actformer::eval {
 
 /// Generated motions beside a dataset's split.
 struct ScoreMotions {
-    std::filesystem::path recogniser;  ///< folder of a training, or weights
-    std::filesystem::path
-        single_recogniser;  ///< one-person recogniser for FIDa of several persons; may be empty
+    /// Folder of a training, or weights; empty, with a single_recogniser: FIDa alone is measured.
+    std::filesystem::path recogniser;
+
+    /// One-person recogniser for FIDa of several persons; may be empty. One of the 15 common joints sees those of any skeleton
+    /// that has them.
+    std::filesystem::path single_recogniser;
     WindowsOptions real;
     std::vector<MotionSet> generated;  ///< one a repeat
 

@@ -85,13 +85,14 @@ void warn_of_floor(ScoreReport& report) {
         report.warnings.emplace_back("the real side is too small to be scored against itself: no floor");
         return;
     }
-    const auto& at_best = report.floor->score.fid.mean;
-    const auto got = summary(report, *find_metric("fid_mean"));
+    const auto& metric = *find_metric(report.repeats[0].fid ? "fid_mean" : "fida_mean");
+    const auto at_best = value_of(report.floor->score, metric);
+    const auto got = summary(report, metric);
     if (got && at_best && *at_best > got->mean / 2)
         report.warnings.push_back(
-            fmt::format("real samples against real ones come to an FIDm of {:.4g}: of {:.4g} much is "
+            fmt::format("real samples against real ones come to an {} of {:.4g}: of {:.4g} much is "
                         "owed to few samples",
-                        *at_best, got->mean));
+                        metric.heading, *at_best, got->mean));
 }
 
 std::optional<double> class_accuracy(const Score& score, std::size_t label) {
@@ -110,10 +111,12 @@ std::optional<double> mean_of(const ScoreReport& report, Of of) {
 }
 
 Json class_json(const ScoreReport& report, std::size_t c) {
-    const auto fid = [c](const Score& s) { return s.fid.by_class[c]; };
-    const auto fida = [c](const Score& s) {
-        return s.fid_groups ? s.fid_groups->by_class[c] : std::optional<double>();
+    const auto of_class = [c](const std::optional<Distances>& d) {
+        return d ? d->by_class[c] : std::optional<double>();
     };
+    const auto fid = [&](const Score& s) { return of_class(s.fid); };
+    const auto fida = [&](const Score& s) { return of_class(s.fid_groups); };
+    const auto floor = [&](const Score& s) { return s.fid ? fid(s) : fida(s); };
     return {{"class", report.classes[c]},
             {"label", c},
             {"real", report.real[c]},
@@ -121,7 +124,7 @@ Json class_json(const ScoreReport& report, std::size_t c) {
             {"accuracy", number(mean_of(report, [c](const Score& s) { return class_accuracy(s, c); }))},
             {"fid", number(mean_of(report, fid))},
             {"fida", number(mean_of(report, fida))},
-            {"floor", report.floor ? number(report.floor->score.fid.by_class[c]) : Json(nullptr)}};
+            {"floor", report.floor ? number(floor(report.floor->score)) : Json(nullptr)}};
 }
 
 Json floor_json(const Floor& floor) {
@@ -152,17 +155,16 @@ Json confusion_json(const ScoreReport& report) {
 }  // namespace
 
 std::optional<double> value_of(const Score& score, const Metric& metric) {
-    const auto of_groups = [&](auto value) -> std::optional<double> {
-        if (!score.fid_groups) return {};
-        return value(*score.fid_groups);
+    const auto mean = [](const std::optional<Distances>& d) { return d ? d->mean : std::nullopt; };
+    const auto whole = [](const std::optional<Distances>& d) {
+        return d ? std::optional(d->whole) : std::nullopt;
     };
     if (metric.name == "accuracy")
         return score.confusion ? std::optional(score.confusion->mean_class_accuracy()) : std::nullopt;
-    if (metric.name == "fid_mean") return score.fid.mean;
-    if (metric.name == "fid_whole") return score.fid.whole;
-    if (metric.name == "fida_mean") return of_groups([](const Distances& d) { return d.mean; });
-    if (metric.name == "fida_whole")
-        return of_groups([](const Distances& d) { return std::optional(d.whole); });
+    if (metric.name == "fid_mean") return mean(score.fid);
+    if (metric.name == "fid_whole") return whole(score.fid);
+    if (metric.name == "fida_mean") return mean(score.fid_groups);
+    if (metric.name == "fida_whole") return whole(score.fid_groups);
     if (metric.name == "diversity") return score.diversity;
     if (metric.name == "multimodality") return score.multimodality;
     throw Error("metric '{}' has no value", metric.name);
@@ -182,8 +184,10 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
     report.real = scorer.real().counts;
     report.floor = score_floor(real, report.repeats[0].counts, options);
     if (!real.samples.logits.empty()) report.real_accuracy = confusion_of(real.samples).mean_class_accuracy();
-    report.real_diversity = diversity(real.samples, options.diversity_pairs, options.seed);
-    report.real_multimodality = multimodality(real.samples, options.multimodality_pairs, options.seed);
+    if (!real.of_groups) {
+        report.real_diversity = diversity(real.samples, options.diversity_pairs, options.seed);
+        report.real_multimodality = multimodality(real.samples, options.multimodality_pairs, options.seed);
+    }
     warn_of_counts(report);
     warn_of_collapse(report);
     warn_of_floor(report);

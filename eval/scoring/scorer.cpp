@@ -43,6 +43,7 @@ Samples subset(const Samples& from, const std::vector<std::size_t>& which) {
 Observed subset(const Observed& from, const std::vector<std::size_t>& which) {
     Observed out;
     out.source = from.source;
+    out.of_groups = from.of_groups;
     out.samples = subset(from.samples, which);
     if (from.groups) out.groups = subset(*from.groups, which);
     return out;
@@ -93,12 +94,14 @@ Score Scorer::score(const Observed& generated) const {
     const auto statistics = statistics_of(samples, options_.threads);
     out.counts = statistics.counts;
     if (!samples.logits.empty()) out.confusion = confusion_of(samples);
-    out.fid = distances(real_, statistics, options_.threads);
+    (generated.of_groups ? out.fid_groups : out.fid) = distances(real_, statistics, options_.threads);
     if (real_groups_ && generated.groups)
         out.fid_groups =
             distances(*real_groups_, statistics_of(*generated.groups, options_.threads), options_.threads);
-    out.diversity = diversity(samples, options_.diversity_pairs, options_.seed);
-    out.multimodality = multimodality(samples, options_.multimodality_pairs, options_.seed);
+    if (!generated.of_groups) {
+        out.diversity = diversity(samples, options_.diversity_pairs, options_.seed);
+        out.multimodality = multimodality(samples, options_.multimodality_pairs, options_.seed);
+    }
     out.identical = identical_classes(statistics);
     return out;
 }

@@ -11,6 +11,8 @@ struct Observed {
     Samples samples;
     std::optional<Samples>
         groups;  ///< several persons: what the one-person recogniser sees, as largest_of_group says
+    bool of_groups =
+        false;  ///< `samples` are those of groups: there is no recogniser that sees the persons together
     std::vector<std::string> clips;  ///< (n) the clip each sample was cut from, or empty: each from its own
     std::string source;              ///< for messages
 };
@@ -26,9 +28,9 @@ struct ScorerOptions {
 
 /// Of one set of generated samples.
 struct Score {
-    std::vector<std::size_t> counts;     ///< (classes) generated samples
-    std::optional<Confusion> confusion;  ///< where there are logits
-    Distances fid;
+    std::vector<std::size_t> counts;      ///< (classes) generated samples
+    std::optional<Confusion> confusion;   ///< where there are logits
+    std::optional<Distances> fid;         ///< where a recogniser sees the persons together
     std::optional<Distances> fid_groups;  ///< FIDa
     std::optional<double> diversity, multimodality;
     std::vector<std::size_t> identical;  ///< classes whose samples, two or more, are all the same

@@ -27,7 +27,7 @@ class WindowsSource final : public MotionSource {
   public:
     WindowsSource(kernels::Device& device, const WindowsOptions& options)
         : device_(&device), options_(options), dataset_(options.dataset) {
-        info_ = describe(dataset_);
+        info_ = describe(dataset_, options.joints);
         list_windows();
         info_.shortest = info_.longest = options_.window;
         info_.view = fmt::format("split {}, windows of {} frames", options_.split, options_.window);
@@ -43,7 +43,7 @@ class WindowsSource final : public MotionSource {
     struct Loaded {
         Loaded(kernels::Device& device, const ingest::Dataset& dataset, const WindowsOptions& options,
                const std::vector<kernels::Window>& windows)
-            : clips(ingest::load_view(device, dataset, options.split).store),
+            : clips(ingest::load_view(device, dataset, options.split, options.joints).store),
               cutter(clips, windows),
               batch(make_batch(clips, std::min<std::size_t>(options.batch, windows.size()), options.window)) {
         }
@@ -92,16 +92,18 @@ std::unique_ptr<MotionSource> open_windows(kernels::Device& device, const Window
     return std::make_unique<WindowsSource>(device, options);
 }
 
-MotionsInfo describe(const ingest::Dataset& dataset) {
+MotionsInfo describe(const ingest::Dataset& dataset, ingest::Joints joints) {
     const auto& header = dataset.header();
+    const auto representation = ingest::representation_of(dataset, joints);
+    const auto& topology = ingest::topology_of(dataset, joints);
     MotionsInfo out;
     out.source = dataset.folder().string();
-    out.representation = header.representation;
+    out.representation = representation;
     out.classes = header.classes;
     out.persons = header.persons;
-    out.channels = header.persons * header.representation.numbers();
-    out.joints = header.nodes();
-    out.parents = header.representation.node_parents(header.topology);
+    out.channels = header.persons * representation.numbers();
+    out.joints = representation.nodes(topology);
+    out.parents = representation.node_parents(topology);
     out.fingerprint = dataset.fingerprint();
     return out;
 }

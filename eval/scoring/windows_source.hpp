@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "eval/scoring/motion_source.hpp"
+#include "ingest/dataset/common_joints.hpp"
 #include "ingest/dataset/dataset.hpp"
 
 namespace actformer::eval {
@@ -13,6 +14,7 @@ struct WindowsOptions {
     std::string split = "all";
     std::uint32_t window = 60;  ///< frames
     std::uint32_t batch = 64;   ///< the most windows handed to the recogniser together
+    ingest::Joints joints = ingest::Joints::own;
 };
 
 /// Every window of every clip, named CLIP@FIRST_FRAME. They lie on `device`, which the first one loads the split to and which
@@ -21,7 +23,7 @@ struct WindowsOptions {
 std::unique_ptr<MotionSource> open_windows(kernels::Device& device, const WindowsOptions& options);
 
 /// What is known of a dataset's clips, without names and labels.
-MotionsInfo describe(const ingest::Dataset& dataset);
+MotionsInfo describe(const ingest::Dataset& dataset, ingest::Joints joints = ingest::Joints::own);
 
 /// The clip that a window's name tells: "walk" of "walk@60".
 std::string clip_of(const std::string& window);

@@ -25,8 +25,7 @@ std::string_view name_of(DataOrigin::Kind kind) {
 }
 
 DataOrigin::Kind origin_named(std::string_view name, const std::string& where) {
-    using enum DataOrigin::Kind;
-    for (const auto kind : {recorded, synthetic, stand_in})
+    for (const auto kind : DataOrigin::kinds)
         if (name == name_of(kind)) return kind;
     throw Error("{}: origin '{}' is none of recorded, synthetic, stand-in", where, name);
 }

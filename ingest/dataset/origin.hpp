@@ -14,6 +14,8 @@ struct DataOrigin {
         synthetic,  ///< made by a program and published so, as GTA Combat is
         stand_in  ///< made in the place of a dataset that is not at hand: no figure is comparable with one of that dataset
     };
+    static constexpr Kind kinds[] = {Kind::recorded, Kind::synthetic, Kind::stand_in};
+
     std::optional<Kind> kind;  ///< none: not told, as in datasets of earlier versions
     std::string
         skeleton;  ///< that rotations turn: "generic", or the name of the model file; empty: the motion's own

@@ -1,6 +1,9 @@
 #include "ingest/dataset/view.hpp"
 
+#include <optional>
+
 #include "base/error.hpp"
+#include "ingest/dataset/known_topologies.hpp"
 
 namespace actformer::ingest {
 
@@ -12,16 +15,23 @@ std::vector<std::size_t> clips_in(const Dataset& dataset, const std::string& spl
     return clips;
 }
 
-View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split,
-               const std::function<void(std::size_t, std::size_t)>& progress) {
+Representation representation_of(const Dataset& dataset, Joints joints) {
+    return joints == Joints::own ? dataset.header().representation : Representation(Representation::limb);
+}
+
+const Topology& topology_of(const Dataset& dataset, Joints joints) {
+    return joints == Joints::own ? dataset.header().topology : common15();
+}
+
+View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split, Joints joints) {
     auto clips = clips_in(dataset, split);
     kernels::ClipTable table;
-    const auto& header = dataset.header();
-    table.persons = header.persons;
-    table.nodes = header.nodes();
-    table.numbers = header.representation.numbers();
-    if (header.centre_windows) {
-        const auto moving = header.representation.moving(table.nodes);
+    const auto representation = representation_of(dataset, joints);
+    table.persons = dataset.header().persons;
+    table.nodes = representation.nodes(topology_of(dataset, joints));
+    table.numbers = representation.numbers();
+    if (dataset.header().centre_windows) {
+        const auto moving = representation.moving(table.nodes);
         table.centring = kernels::Centring{moving.root, moving.first, moving.count};
     }
     for (const auto c : clips) {
@@ -31,9 +41,11 @@ View load_view(kernels::Device& device, const Dataset& dataset, const std::strin
         table.labels.push_back(clip.label);
     }
     kernels::ClipStore store(device, std::move(table));
+    std::optional<CommonJoints> common;
+    if (joints == Joints::common15) common.emplace(dataset.body(clips[0]), dataset.folder().string());
     for (std::size_t i = 0; i < clips.size(); ++i) {
-        store.load(i, dataset.motion(clips[i]).values);
-        if (progress) progress(i + 1, clips.size());
+        const auto motion = dataset.motion(clips[i]);
+        store.load(i, common ? common->of(motion, dataset.bone_length(clips[i])).values : motion.values);
     }
     return {std::move(clips), std::move(store)};
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "ingest/dataset/common_joints.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "kernels/sampler.hpp"
 
@@ -18,9 +19,13 @@ struct View {
 /// Indices into dataset.clips() of those in `split`. Throws Error for a split that does not exist or holds no clip.
 std::vector<std::size_t> clips_in(const Dataset& dataset, const std::string& split);
 
-/// Reads the clips of `split` ("all" for every clip) onto the device, calling `progress(clips read, of how many)` now and
-/// then. Throws Error for a split that does not exist or holds no clip, and for more frames than the device takes.
+/// How a dataset's motions look to those who are shown `joints` of them.
+Representation representation_of(const Dataset& dataset, Joints joints);
+const Topology& topology_of(const Dataset& dataset, Joints joints);
+
+/// Reads the clips of `split` ("all" for every clip) onto the device. Throws Error for a split that does not exist or holds no
+/// clip, for more frames than the device takes, and as CommonJoints does.
 View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split,
-               const std::function<void(std::size_t, std::size_t)>& progress = {});
+               Joints joints = Joints::own);
 
 }  // namespace actformer::ingest

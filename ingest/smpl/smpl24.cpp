@@ -2,16 +2,6 @@
 
 namespace actformer::ingest {
 
-const Topology& smpl24() {
-    static const Topology topology{
-        {"pelvis",     "left hip",    "right hip",    "spine1",      "left knee",     "right knee",
-         "spine2",     "left ankle",  "right ankle",  "spine3",      "left foot",     "right foot",
-         "neck",       "left collar", "right collar", "head",        "left shoulder", "right shoulder",
-         "left elbow", "right elbow", "left wrist",   "right wrist", "left hand",     "right hand"},
-        {smpl24_parents.begin(), smpl24_parents.end()}};
-    return topology;
-}
-
 RestSkeleton generic_skeleton() {
     constexpr double hip = 0.0916, collar = 0.060, shoulder = 0.124, elbow = 0.296, wrist = 0.185,
                      hand = 0.080;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ingest/dataset/topology.hpp"
+#include "ingest/dataset/known_topologies.hpp"
 
 namespace actformer::ingest {
 
@@ -14,9 +14,6 @@ inline constexpr std::size_t smpl_joints = 24;
 /// Parents of smpl24(); every joint comes after its parent.
 inline constexpr std::array<int, smpl_joints> smpl24_parents{-1, 0, 0, 0,  1,  2,  3,  4,  5,  6,  7,  8,
                                                              9,  9, 9, 12, 13, 14, 16, 17, 18, 19, 20, 21};
-
-/// SMPL's 24 joints in its order.
-const Topology& smpl24();
 
 /// The rest pose that rotations turn: a T, facing +z, up +y, left +x.
 struct RestSkeleton {

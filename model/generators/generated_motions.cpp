@@ -30,6 +30,7 @@ class GeneratedMotions final : public eval::MotionSource {
         info_.representation = subjects.representation;
         info_.classes = subjects.classes;
         info_.persons = subjects.persons;
+        info_.body = subjects;
         info_.channels = subjects.persons * subjects.representation.numbers();
         info_.joints = subjects.representation.nodes(subjects.topology);
         info_.parents = subjects.representation.node_parents(subjects.topology);

@@ -12,6 +12,10 @@ void add_network_keys(KeyTable<RecogniserSettings>& table) {
              {.name = "persons", .meaning = "persons a clip; 0 takes the dataset's", .least = 0, .most = 16})
         .add(&Settings::classes,
              {.name = "classes", .meaning = "classes; 0 takes the dataset's", .least = 0, .most = 100000})
+        .add(&Settings::joints, {.name = "joints",
+                                 .meaning = "own, or common15: the 15 that NTU RGB+D, GTA Combat and SMPL "
+                                            "share, as limbs, for FIDa across datasets",
+                                 .choices = {"own", "common15"}})
         .add(&Settings::width, {.name = "width",
                                 .meaning = "times the public network's 64, 128 and 256 channels",
                                 .least = 0.05,

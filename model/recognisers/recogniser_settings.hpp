@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "ingest/dataset/topology.hpp"
+#include "ingest/dataset/common_joints.hpp"
 #include "model/recognisers/stgcn.hpp"
 #include "model/train/trainer_settings.hpp"
 
@@ -19,12 +19,16 @@ struct RecogniserSettings : TrainerSettings {
     }
     std::string test_split;                  ///< may be empty: nothing is scored then
     std::uint32_t persons = 0, classes = 0;  ///< 0: as the dataset has them
+    std::string joints = "own";  ///< or "common15", those that skeletons of several datasets share
     double width = 1, dropout = 0.5;
     std::uint32_t frames = 60;
     double rate = 0.1, momentum = 0.9, weight_decay = 1e-4;
     bool nesterov = true;
     std::string precision = "float32";  ///< or "float64", of weights and of all that training computes
 
+    ingest::Joints joints_seen() const {
+        return joints == "common15" ? ingest::Joints::common15 : ingest::Joints::own;
+    }
     double rate_at(std::uint64_t epoch) const { return rate * rate_share(epoch); }
 };
 

@@ -35,13 +35,15 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
     const auto settings = recogniser_settings(config);
     const auto dataset = dataset_to_train_on(settings.data);
     const auto& header = dataset.header();
-    const auto network = network_for(settings, header.representation, header.topology, header.persons,
+    const auto joints = settings.joints_seen();
+    const auto network = network_for(settings, ingest::representation_of(dataset, joints),
+                                     ingest::topology_of(dataset, joints), header.persons,
                                      header.classes.size(), dataset.folder().string());
     kernels::Device opencl(settings.opencl);
-    const auto clips = ingest::load_view(opencl, dataset, settings.train_split).store;
+    const auto clips = ingest::load_view(opencl, dataset, settings.train_split, joints).store;
     std::optional<kernels::ClipStore> test_clips;
     if (!settings.test_split.empty())
-        test_clips = ingest::load_view(opencl, dataset, settings.test_split).store;
+        test_clips = ingest::load_view(opencl, dataset, settings.test_split, joints).store;
     const Processes alone;
     const LearnerSetup setup{clips, torch_device(settings.device), alone};
     RecogniserLearner learner(settings, network, setup);

@@ -30,6 +30,7 @@ Json figures_json(const Figures& figures) {
 
 Json group_json(const CellGroup& group, const PaperColumns& columns) {
     Json out{{"dataset", columns.dataset}, {"state", in_words(group.state)}};
+    out["origin"] = group.row ? group.row->origin.text() : "";
     out["provenance"] = provenance(group);
     for (std::size_t m = 0; m < columns.metrics.size(); ++m)
         out["metrics"][columns.metrics[m].name] = figures_json(group.figures[m]);
@@ -95,13 +96,32 @@ std::string latex_cell(const CellGroup& group, const Figures& figures) {
     return out;
 }
 
+/// "NTU-2P (stand-in)"
+std::string with_origin(const FilledTable& table, std::size_t column) {
+    const auto origin = origin_of(table, column);
+    const auto& name = table.paper->columns[column].dataset;
+    return origin.empty() ? name : fmt::format("{} ({})", name, origin);
+}
+
+/// The paper's, and what the motions are where some are not the paper's.
+std::string latex_caption(const FilledTable& table) {
+    auto caption = table.paper->caption;
+    for (std::size_t c = 0; c < table.paper->columns.size(); ++c)
+        if (const auto origin = origin_of(table, c); !origin.empty())
+            caption += fmt::format("{} {}: {}", caption.ends_with('.') ? "" : ".",
+                                   table.paper->columns[c].dataset, origin) +
+                       ".";
+    return caption;
+}
+
 std::string latex_table(const FilledTable& table) {
     std::string kinds = "l", groups, rules, metrics;
     std::size_t column = 2;
-    for (const auto& one : table.paper->columns) {
+    for (std::size_t c = 0; c < table.paper->columns.size(); ++c) {
+        const auto& one = table.paper->columns[c];
         kinds += std::string(one.metrics.size(), 'r');
-        groups +=
-            fmt::format(" & \\multicolumn{{{}}}{{c}}{{{}}}", one.metrics.size(), latex_text(one.dataset));
+        groups += fmt::format(" & \\multicolumn{{{}}}{{c}}{{{}}}", one.metrics.size(),
+                              latex_text(with_origin(table, c)));
         rules += fmt::format("\\cmidrule(lr){{{}-{}}} ", column, column + one.metrics.size() - 1);
         column += one.metrics.size();
         for (const auto& metric : one.metrics) metrics += " & " + latex_heading(metric);
@@ -118,7 +138,7 @@ std::string latex_table(const FilledTable& table) {
     }
     return out +
            fmt::format("\\bottomrule\n\\end{{tabular}}\n\\caption{{{}}}\n\\label{{tab:{}}}\n\\end{{table}}\n",
-                       latex_text(table.paper->caption), table.paper->id);
+                       latex_text(latex_caption(table)), table.paper->id);
 }
 
 }  // namespace
@@ -144,17 +164,17 @@ nlohmann::ordered_json to_json(const std::vector<FilledTable>& tables,
 }
 
 std::string to_csv(const std::vector<FilledTable>& tables) {
-    std::string out = "table,row,dataset,metric,state,mean,ci95,repeats,paper,paper_ci95\n";
+    std::string out = "table,row,dataset,metric,state,mean,ci95,repeats,paper,paper_ci95,origin\n";
     for (const auto& table : tables)
         for (std::size_t r = 0; r < table.rows.size(); ++r)
             for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
                 const auto& group = table.rows[r][c];
                 const auto& columns = table.paper->columns[c];
                 for (std::size_t m = 0; m < columns.metrics.size(); ++m)
-                    out += fmt::format("{},{},{},{},{},{}\n", table.paper->id,
-                                       csv_text(table.paper->rows[r].name), csv_text(columns.dataset),
-                                       columns.metrics[m].name, state_of(group, m),
-                                       csv_figures(group.figures[m]));
+                    out += fmt::format(
+                        "{},{},{},{},{},{},{}\n", table.paper->id, csv_text(table.paper->rows[r].name),
+                        csv_text(columns.dataset), columns.metrics[m].name, state_of(group, m),
+                        csv_figures(group.figures[m]), csv_text(group.row ? group.row->origin.text() : ""));
             }
     return out;
 }

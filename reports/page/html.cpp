@@ -41,18 +41,24 @@ std::string data_lines(const FilledTable& table) {
         std::set<std::string> data;
         for (const auto& row : table.rows)
             if (row[c].row) data.insert(fmt::format("{} (split {})", row[c].row->data, row[c].row->split));
-        out += fmt::format("<p class=\"data\"><b>{}</b>, measured on {}</p>\n", escaped(name),
+        const auto origin = origin_of(table, c);
+        out += fmt::format("<p class=\"data\"><b>{}</b>{}, measured on {}</p>\n", escaped(name),
+                           origin.empty() ? "" : " (" + escaped(origin) + ")",
                            escaped(fmt::format("{}", fmt::join(data, "; "))));
     }
     if (!none.empty()) out += fmt::format("<p class=\"data\">Nothing was run for {}.</p>\n", escaped(none));
     return out;
 }
 
-std::string head(const PaperTable& paper) {
+std::string head(const FilledTable& table) {
     std::string groups, metrics;
-    for (const auto& column : paper.columns) {
-        groups += fmt::format("<th class=\"group first\" scope=\"colgroup\" colspan=\"{}\">{}</th>",
-                              column.metrics.size(), escaped(column.dataset));
+    for (std::size_t c = 0; c < table.paper->columns.size(); ++c) {
+        const auto& column = table.paper->columns[c];
+        const auto origin = origin_of(table, c);
+        groups +=
+            fmt::format("<th class=\"group first\" scope=\"colgroup\" colspan=\"{}\">{}{}</th>",
+                        column.metrics.size(), escaped(column.dataset),
+                        origin.empty() ? "" : " <small class=\"origin\">" + escaped(origin) + "</small>");
         for (std::size_t m = 0; m < column.metrics.size(); ++m) {
             const auto [text, title] = arrow(column.metrics[m].better);
             metrics += fmt::format("<th scope=\"col\"{}>{} <span class=\"arrow\" title=\"{}\">{}</span></th>",
@@ -135,22 +141,30 @@ std::string escaped(std::string_view text) {
 std::string html_note(const std::vector<FilledTable>& tables, const std::vector<std::string>& notices) {
     std::string out;
     std::set<std::string> data;
-    bool synthetic = false;
+    bool stand_in = false, generic = false;
     for (const auto& table : tables)
         for (const auto& row : table.rows)
             for (const auto& group : row)
                 if (group.row) {
                     data.insert(group.row->data);
-                    synthetic = synthetic || group.row->data.find("synthetic") != std::string::npos;
+                    const auto& origin = group.row->origin;
+                    stand_in = stand_in || origin.kind == ingest::DataOrigin::Kind::stand_in ||
+                               group.row->data.find("synthetic people") != std::string::npos;
+                    generic = generic || origin.skeleton == "generic";
                 }
     out += "<div class=\"note\">\n<p>Every large figure below was measured by actformer";
     if (!data.empty()) out += " on " + escaped(fmt::format("{}", fmt::join(data, "; ")));
     out += ". The small figures are those that the papers print, for comparison only.</p>\n";
-    if (synthetic)
+    if (stand_in)
         out +=
-            "<p>Synthetic people are not NTU RGB+D: such figures show that the whole chain works, and how "
-            "the methods "
-            "compare on made-up motion. They cannot be held against the paper's.</p>\n";
+            "<p>Stand-ins are motion of synthetic people in the place of a dataset: such figures show that "
+            "the whole chain works, "
+            "and how the methods compare on made-up motion. They cannot be held against the paper's.</p>\n";
+    if (generic)
+        out +=
+            "<p>A generic skeleton turned rotations into joints where no SMPL model file was given: where "
+            "joints are, and what "
+            "is measured of them, differs a little from the paper's.</p>\n";
     for (const auto& notice : notices) out += "<p class=\"notice\">" + escaped(notice) + "</p>\n";
     return out + "</div>\n";
 }
@@ -175,7 +189,7 @@ std::string html_tables(const std::vector<FilledTable>& tables) {
             "class=\"scroll\"><table>\n{}{}"
             "</table></div>\n</section>\n",
             table.paper->id, escaped(table.paper->title), escaped(table.paper->caption),
-            escaped(table.paper->source), data_lines(table), head(*table.paper), body(table));
+            escaped(table.paper->source), data_lines(table), head(table), body(table));
     return out;
 }
 

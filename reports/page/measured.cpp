@@ -80,6 +80,19 @@ std::string data_in_words(const Json& row) {
     return path.empty() ? name : fmt::format("{}: the dataset in {}", name, path);
 }
 
+/// What the scores of any run tell of the motions they were measured on.
+ingest::DataOrigin origin_in(const std::vector<MeasuredRun>& runs) {
+    ingest::DataOrigin out;
+    for (const auto& run : runs) {
+        const auto& said =
+            loose::member(loose::member(loose::member(run.scored, "provenance"), "real"), "origin");
+        for (const auto kind : ingest::DataOrigin::kinds)
+            if (loose::text(said, "data") == ingest::name_of(kind)) out.kind = kind;
+        if (const auto skeleton = loose::text(said, "skeleton"); !skeleton.empty()) out.skeleton = skeleton;
+    }
+    return out;
+}
+
 MeasuredRow read_row(const Json& json, const std::string& sweep, const fs::path& folder,
                      std::vector<std::string>& notices) {
     MeasuredRow row;
@@ -98,6 +111,7 @@ MeasuredRow read_row(const Json& json, const std::string& sweep, const fs::path&
         run.scored = read_scores(run, row.name, notices);
         row.runs.push_back(std::move(run));
     }
+    row.origin = origin_in(row.runs);
     return row;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "ingest/dataset/origin.hpp"
+
 namespace actformer::reports {
 
 /// One seed of a row. Whole paths; empty where the sweep names none. What they name may have gone since.
@@ -23,6 +25,7 @@ struct MeasuredRow {
     std::vector<std::string> fills;  ///< cells, see find_cell()
     std::string dataset, split;
     std::string data;                 ///< in plain words, what `dataset` is
+    ingest::DataOrigin origin;        ///< of `dataset`, as the scores tell it
     nlohmann::ordered_json settings;  ///< key: value, as the sweep file has them
     std::vector<MeasuredRun> runs;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/text/loose_json.hpp"
@@ -168,6 +169,14 @@ std::string paper_text(const PaperFigure& figure) {
     return number(*figure.value) + (figure.half_width ? " ± " + number(*figure.half_width) : "");
 }
 
+std::string origin_of(const FilledTable& table, std::size_t dataset) {
+    std::set<std::string> origins;
+    for (const auto& row : table.rows)
+        if (row[dataset].row) origins.insert(row[dataset].row->origin.text());
+    origins.erase("");
+    return fmt::format("{}", fmt::join(origins, "; "));
+}
+
 std::vector<std::string> provenance(const CellGroup& group) {
     std::vector<std::string> lines;
     if (!group.row) return lines;
@@ -185,7 +194,8 @@ std::vector<std::string> provenance(const CellGroup& group) {
         settings += fmt::format("{}{}={}", settings.empty() ? "" : " ", key,
                                 value.is_string() ? value.get<std::string>() : value.dump());
     if (!settings.empty()) lines.push_back("settings: " + settings);
-    lines.push_back("data " + row.data);
+    const auto origin = row.origin.text();
+    lines.push_back("data " + row.data + (origin.empty() ? "" : " (" + origin + ")"));
     if (const auto* run = row.shown()) {
         if (!run->run.empty()) lines.push_back("run " + run->run.string());
         add_score_lines(run->scored, lines);

@@ -46,6 +46,10 @@ std::string figure_text(double value);
 /// "42.01", "98.80 ± 0.10", "not at hand"; empty where the paper prints none.
 std::string paper_text(const PaperFigure& figure);
 
+/// What the motions of a table's column `dataset` are: "stand-in, generic skeleton"; several where its rows were measured on
+/// several; empty where none tells.
+std::string origin_of(const FilledTable& table, std::size_t dataset);
+
 /// Where a group's figures come from, a line each: sweep, row and seeds, settings, data and its fingerprint, recogniser, version.
 std::vector<std::string> provenance(const CellGroup& group);
 

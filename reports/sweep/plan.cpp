@@ -197,11 +197,11 @@ class Planner {
 
     void plan_row(const SweepRow& row) {
         PlannedRow planned{&row, {}};
-        const auto data = dataset(row.data), recogniser_made = recogniser(row.recogniser);
+        const auto data = dataset(row.data);
+        const auto together = row.recogniser.empty() ? Made{} : recogniser(row.recogniser);
         const auto single = row.single_recogniser.empty() ? Made{} : recogniser(row.single_recogniser);
         const auto seeds = row.motions.empty() ? row.seeds : std::vector<std::uint64_t>{0};
-        for (const auto seed : seeds)
-            planned.runs.push_back(planned_run(row, seed, data, recogniser_made, single));
+        for (const auto seed : seeds) planned.runs.push_back(planned_run(row, seed, data, together, single));
         plan_.rows.push_back(std::move(planned));
     }
 
@@ -214,7 +214,8 @@ class Planner {
         job.title = fmt::format("{}, seed {}: scores", row.name, seed);
         for (const auto& made : {data, recogniser, single}) need(job, made);
         ScoringWork work;
-        work.recogniser = run.recogniser = recogniser.path;
+        work.recogniser = recogniser.path;
+        run.recogniser = recogniser.path.empty() ? single.path : recogniser.path;
         work.single_recogniser = single.path;
         work.data = run.dataset = data.path;
         work.split = row.split;

@@ -180,8 +180,8 @@ SweepRow row(const Place& place, const Node& where, const std::string& name, Ent
              "data, recogniser, single_recogniser, config, motions, set, seeds, repeats, per_class, window, "
              "split, "
              "device, fills, like");
-    if (out.data.empty() || out.recogniser.empty())
-        place.fail(where, fmt::format("row '{}' must say data and recogniser", name));
+    if (out.data.empty() || (out.recogniser.empty() && out.single_recogniser.empty()))
+        place.fail(where, fmt::format("row '{}' must say data and recogniser, or single_recogniser", name));
     if (out.config.empty() && out.motions.empty())
         place.fail(where, fmt::format("row '{}' must say config, of a generator, or motions", name));
     if (out.seeds.empty()) place.fail(where, fmt::format("row '{}' has no seeds", name));

@@ -9,9 +9,12 @@
 #include "base/hdf5/reader.hpp"
 #include "eval/scoring/features_file.hpp"
 #include "eval/stgcn/weights.hpp"
+#include "ingest/dataset/common_joints.hpp"
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/known_topologies.hpp"
 #include "ingest/dataset/motions_file.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/made_dataset.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/unit_limbs.hpp"
 
@@ -215,6 +218,53 @@ TEST_F(Score, OfGroupsSeesEveryPersonAlone) {
     expect_near(json["fida_mean"], theirs["fid_mean"]);
     expect_near(json["fida_whole"], theirs["fid_whole"]);
     EXPECT_NE(json["fida_whole"], json["fid_whole"]);
+}
+
+/// The two-person dataset as what a recogniser of the common joints sees of it.
+void write_common_joints(const fs::path& folder) {
+    const ingest::Dataset data(datasets() / "ntu-2p");
+    std::vector<MadeClip> clips;
+    for (std::size_t c = 0; c < data.clips().size(); ++c) {
+        auto clip = data.clips()[c];
+        const auto seen = ingest::CommonJoints(data.body(c), "").of(data.motion(c));
+        clips.push_back({clip, seen, std::vector<float>(2 * 15, 0.3F)});
+        clips.back().motion.name = clip.name;
+    }
+    auto header = data.header();
+    header.topology = ingest::common15();
+    write_dataset(folder, header, clips);
+}
+
+TEST_F(Score, OfGroupsAloneSeesTheCommonJointsOfAnySkeleton) {
+    const auto seen = (dir / "seen").string(), real = (datasets() / "ntu-2p").string();
+    write_common_joints(seen);
+    write_weights(dir / "common.h5",
+                  eval::random_weights(3, 7, eval::recogniser_graph(ingest::common15().parents), 0.125, 3));
+    const ingest::Dataset data(real);
+    const auto subjects = ingest::subjects_of(data);
+    ingest::MotionsWriter own(dir / "own.h5"), common(dir / "common-motions.h5");
+    own.describe(subjects);
+    for (unsigned i = 0; i < 12; ++i) {
+        const auto name = fmt::format("A{:03}_{}", i % 2 + 1, i / 2);
+        const auto motion = made_motion(60, 2, i);
+        own.add(name, motion);
+        common.add(name, ingest::CommonJoints(subjects, "").of(motion));
+    }
+    own.finish();
+    common.finish();
+    const auto single = "--single-recogniser " + at("common.h5") + " --real ";
+    const auto of_own = scored(single + real + " --generated " + at("own.h5")),
+               of_common = scored(single + seen + " --generated " + at("common-motions.h5"));
+    EXPECT_EQ(of_own["fida_whole"], of_common["fida_whole"]) << "the same numbers are seen";
+    EXPECT_EQ(of_own["fida_mean"], of_common["fida_mean"]);
+    EXPECT_GT(of_own["fida_whole"]["mean"], 0);
+    for (const auto* other : {"accuracy", "fid_mean", "fid_whole", "diversity", "multimodality"})
+        EXPECT_FALSE(of_own.contains(other)) << other;
+    EXPECT_FALSE(of_own["per_class"][0]["fida"].is_null());
+    EXPECT_TRUE(of_own["per_class"][0]["fid"].is_null());
+    motions("bare.h5", 2, 3, 2);
+    expect_refused(single + real + " --generated " + at("bare.h5"),
+                   {"bare.h5", "not known", "15 common joints"});
 }
 
 TEST_F(Score, OfFeaturesNeedsNoRecogniser) {

@@ -83,7 +83,7 @@ GtaClip::Person person_of(const JtaPerson& seen) {
         for (std::size_t j = 0; j < gta_joints; ++j)
             for (std::size_t d = 0; d < 3; ++d)
                 out.limbs.push_back(static_cast<float>(
-                    at[j][d] - (j == 0 ? 0 : at[static_cast<std::size_t>(gta22_parents[j])][d])));
+                    at[j][d] - (j == 0 ? 0 : at[static_cast<std::size_t>(gta22().parents[j])][d])));
     }
     return out;
 }

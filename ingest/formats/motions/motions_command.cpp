@@ -5,8 +5,8 @@ namespace actformer::ingest {
 std::vector<Option> MotionsCommand::list() {
     return {
         Option("--topology",
-               "Joints and parents: ntu25, smpl24, coco17, h36m17, gta22 or a YAML or JSON file", "NAME|FILE",
-               &motions.topology),
+               "Joints and parents: ntu25, smpl24, coco17, h36m17, gta22, common15 or a YAML or JSON file",
+               "NAME|FILE", &motions.topology),
         Option("--labels", "A table of the clips' labels, and of fields for --split", "FILE.csv",
                &motions.labels),
         Option("--name", "What names and folders say: {action}, other {field}s, {*} for the rest", "PATTERN",

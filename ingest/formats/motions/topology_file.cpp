@@ -8,36 +8,10 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/printable.hpp"
-#include "ingest/formats/gta/gta_skeleton.hpp"
-#include "ingest/smpl/smpl24.hpp"
+#include "ingest/dataset/known_topologies.hpp"
 
 namespace actformer::ingest {
 namespace {
-
-struct Known {
-    std::string_view name;
-    Topology topology;
-};
-
-/// Kinect v2's 25, SMPL's 24 (Loper et al. 2015), COCO's 17 key points with the nose for a root, the 17 of Human3.6M as VideoPose3D
-/// orders them, and the 22 of GTA Combat, which are those of JTA with the pelvis first.
-const std::vector<Known>& known() {
-    static const std::vector<Known> all{
-        {"ntu25", ntu25()},
-        {"smpl24", smpl24()},
-        {"coco17",
-         {{"nose", "left eye", "right eye", "left ear", "right ear", "left shoulder", "right shoulder",
-           "left elbow", "right elbow", "left wrist", "right wrist", "left hip", "right hip", "left knee",
-           "right knee", "left ankle", "right ankle"},
-          {-1, 0, 0, 1, 2, 0, 0, 5, 6, 7, 8, 5, 6, 11, 12, 13, 14}}},
-        {"h36m17",
-         {{"pelvis", "right hip", "right knee", "right ankle", "left hip", "left knee", "left ankle", "spine",
-           "thorax", "neck", "head", "left shoulder", "left elbow", "left wrist", "right shoulder",
-           "right elbow", "right wrist"},
-          {-1, 0, 1, 2, 0, 4, 5, 0, 7, 8, 9, 8, 11, 12, 8, 14, 15}}},
-        {"gta22", gta22()}};
-    return all;
-}
 
 constexpr std::uint64_t largest_file = std::uint64_t{16} << 20;
 constexpr std::size_t most_joints = 4096;
@@ -74,18 +48,15 @@ Topology topology_in(const std::string& path) {
 
 }  // namespace
 
-std::vector<std::string_view> known_topologies() {
-    std::vector<std::string_view> names;
-    for (const auto& one : known()) names.push_back(one.name);
-    return names;
-}
-
 Topology topology_called(const std::string& name_or_file) {
-    for (const auto& one : known())
+    std::vector<std::string_view> names;
+    for (const auto& one : known_topologies()) {
         if (one.name == name_or_file) return one.topology;
+        names.push_back(one.name);
+    }
     if (!std::filesystem::exists(name_or_file))
         throw Error("no topology {}: neither a file nor one of {}", in_quotes(name_or_file),
-                    fmt::join(known_topologies(), ", "));
+                    fmt::join(names, ", "));
     return topology_in(name_or_file);
 }
 

@@ -2,17 +2,12 @@
 #pragma once
 
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "ingest/dataset/topology.hpp"
 
 namespace actformer::ingest {
 
-/// "ntu25", "smpl24", "coco17", "h36m17", "gta22"
-std::vector<std::string_view> known_topologies();
-
-/// A known topology, or the one in a JSON or YAML file: `names` and `parents`, -1 for the root, which is joint 0; `parents` may also be
+/// One of known_topologies(), or the one in a JSON or YAML file: `names` and `parents`, -1 for the root, which is joint 0; `parents` may also be
 /// names. Throws Error naming the file and what is wrong in it.
 Topology topology_called(const std::string& name_or_file);
 

@@ -13,7 +13,7 @@ TEST(Metrics, HaveNamesOfTheirOwnAndValues) {
     Score score;
     score.confusion = Confusion(2);
     score.confusion->add(1, 1);
-    score.fid = {3, 4, {}, {}};
+    score.fid = Distances{3, 4, {}, {}};
     score.fid_groups = Distances{5, 6, {}, {}};
     score.diversity = 7;
     score.multimodality = 8;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "ingest/dataset/known_topologies.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
@@ -12,15 +13,14 @@ using namespace actformer::ingest;
 using namespace actformer::test;
 
 TEST(TopologyFile, KnowsUsualSkeletons) {
-    for (const auto name : known_topologies()) {
-        const auto topology = topology_called(std::string(name));
+    for (const auto& [name, topology] : known_topologies()) {
+        EXPECT_EQ(topology_called(std::string(name)), topology);
         EXPECT_NO_THROW(topology.check("")) << name;
         EXPECT_TRUE(name.ends_with(std::to_string(topology.joints()))) << name;
     }
     EXPECT_EQ(topology_called("ntu25"), ntu25());
     // Symmetric: what is left of a joint called left is called right, below the other side's parent or the same.
-    for (const auto name : known_topologies()) {
-        const auto t = topology_called(std::string(name));
+    for (const auto& [name, t] : known_topologies()) {
         for (std::size_t j = 0; j < t.joints(); ++j) {
             if (!t.names[j].starts_with("left ")) continue;
             const auto other = std::find(t.names.begin(), t.names.end(), "right " + t.names[j].substr(5));
@@ -69,6 +69,6 @@ TEST(TopologyFile, NamesWhatIsWrong) {
         FAIL() << "taken";
     } catch (const Error& e) {
         EXPECT_STREQ(e.what(),
-                     "no topology 'smpl25': neither a file nor one of ntu25, smpl24, coco17, h36m17, gta22");
+                     "no topology 'smpl25': neither a file nor one of ntu25, smpl24, coco17, h36m17, gta22, common15");
     }
 }

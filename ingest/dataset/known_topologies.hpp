@@ -1,0 +1,28 @@
+// Skeletons that have a name.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "ingest/dataset/topology.hpp"
+
+namespace actformer::ingest {
+
+struct KnownTopology {
+    std::string_view name;
+    Topology topology;
+};
+
+/// "ntu25", "smpl24", "coco17", "h36m17", "gta22", "common15"
+const std::vector<KnownTopology>& known_topologies();
+
+/// SMPL's 24 joints in its order (Loper et al. 2015); every joint comes after its parent.
+const Topology& smpl24();
+
+/// The 22 joints of GTA Combat: those of JTA (Fabbri et al. 2018), the pelvis first.
+const Topology& gta22();
+
+/// The 15 joints that ntu25(), gta22() and smpl24() have in common: pelvis, neck, head; left arm, right arm, left leg, right leg.
+const Topology& common15();
+
+}  // namespace actformer::ingest
