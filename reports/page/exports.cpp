@@ -103,15 +103,13 @@ std::string with_origin(const FilledTable& table, std::size_t column) {
     return origin.empty() ? name : fmt::format("{} ({})", name, origin);
 }
 
-/// The paper's, and what the motions are where some are not the paper's.
+/// The paper's, and what the motions of each column are.
 std::string latex_caption(const FilledTable& table) {
-    auto caption = table.paper->caption;
+    std::vector<std::string> sentences{table.paper->caption};
     for (std::size_t c = 0; c < table.paper->columns.size(); ++c)
         if (const auto origin = origin_of(table, c); !origin.empty())
-            caption += fmt::format("{} {}: {}", caption.ends_with('.') ? "" : ".",
-                                   table.paper->columns[c].dataset, origin) +
-                       ".";
-    return caption;
+            sentences.push_back(fmt::format("{}: {}", table.paper->columns[c].dataset, origin));
+    return fmt::format("{}", fmt::join(sentences, ". "));
 }
 
 std::string latex_table(const FilledTable& table) {
@@ -181,7 +179,7 @@ std::string to_csv(const std::vector<FilledTable>& tables) {
 
 std::string to_latex(const std::vector<FilledTable>& tables) {
     std::string out = "% Written by `actformer report`; needs the package booktabs.\n";
-    for (const auto& table : tables) out += "\n" + latex_table(table);
+    for (const auto& table : tables) out.append("\n").append(latex_table(table));
     return out;
 }
 

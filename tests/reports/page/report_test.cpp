@@ -250,7 +250,7 @@ TEST_F(Report, SaysWhatTheMotionsAreWhereverAFigureIs) {
     EXPECT_TRUE(has(note, "generic skeleton"));
     EXPECT_TRUE(has(csv, ",\"stand-in, generic skeleton\"\n"));
     EXPECT_TRUE(has(latex, "{BABEL (stand-in, generic skeleton)}"));
-    EXPECT_TRUE(has(latex, "BABEL: stand-in, generic skeleton."));
+    EXPECT_TRUE(has(latex, ". BABEL: stand-in, generic skeleton"));
     EXPECT_EQ(to_json(tables, {})["tables"][0]["rows"][3]["groups"][2]["origin"], "recorded");
 }
 
