@@ -29,7 +29,7 @@ const Topology& smpl24() {
          "spine2",     "left ankle",  "right ankle",  "spine3",      "left foot",     "right foot",
          "neck",       "left collar", "right collar", "head",        "left shoulder", "right shoulder",
          "left elbow", "right elbow", "left wrist",   "right wrist", "left hand",     "right hand"},
-        {-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19, 20, 21}};
+        {smpl24_parents.begin(), smpl24_parents.end()}};
     return topology;
 }
 

@@ -1,6 +1,7 @@
 // Skeletons that have a name.
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +16,12 @@ struct KnownTopology {
 
 /// "ntu25", "smpl24", "coco17", "h36m17", "gta22", "common15"
 const std::vector<KnownTopology>& known_topologies();
+
+inline constexpr std::size_t smpl_joints = 24;
+
+/// Parents of smpl24(); every joint comes after its parent.
+inline constexpr std::array<int, smpl_joints> smpl24_parents{-1, 0, 0, 0,  1,  2,  3,  4,  5,  6,  7,  8,
+                                                             9,  9, 9, 12, 13, 14, 16, 17, 18, 19, 20, 21};
 
 /// SMPL's 24 joints in its order (Loper et al. 2015); every joint comes after its parent.
 const Topology& smpl24();

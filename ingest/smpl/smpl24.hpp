@@ -1,19 +1,12 @@
 // The joints of SMPL (Loper et al. 2015), without its body: what the rotations of AMASS, VIBE and AIST++ turn.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
 #include "ingest/dataset/known_topologies.hpp"
 
 namespace actformer::ingest {
-
-inline constexpr std::size_t smpl_joints = 24;
-
-/// Parents of smpl24(); every joint comes after its parent.
-inline constexpr std::array<int, smpl_joints> smpl24_parents{-1, 0, 0, 0,  1,  2,  3,  4,  5,  6,  7,  8,
-                                                             9,  9, 9, 12, 13, 14, 16, 17, 18, 19, 20, 21};
 
 /// The rest pose that rotations turn: a T, facing +z, up +y, left +x.
 struct RestSkeleton {
