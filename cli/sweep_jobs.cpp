@@ -64,7 +64,7 @@ struct Commands {
         if (work.motions.empty()) {
             words.insert(words.end(),
                          {"--generator", work.generator, "--repeats", std::to_string(work.repeats),
-                          "--per-class", std::to_string(work.per_class), "--program", program});
+                          "--per-class", std::to_string(work.per_class)});
             add_option(words, "--generate-on", work.generate_on);
         } else {
             words.emplace_back("--generated");

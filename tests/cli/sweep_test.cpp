@@ -5,6 +5,7 @@
 
 #include "tests/support/paths.hpp"
 #include "tests/support/sweep.hpp"
+#include "tests/support/toy_dataset.hpp"
 
 using namespace actformer::test;
 namespace fs = std::filesystem;
@@ -250,4 +251,31 @@ TEST(SweepFiles, AreSound) {
         EXPECT_EQ(result.exit, 0) << result.output;
     }
     EXPECT_EQ(files, 7U);
+}
+
+TEST(RealSweep, GoesFromADatasetToScores) {
+    const TempDir dir;
+    write_file(dir / "r.yaml",
+               "model: recogniser\nwidth: 0.1\nframes: 20\nbatch: 16\nepochs: 1\ntrain_split: s/train\n");
+    write_file(
+        dir / "g.yaml",
+        "model: actformer\nframes: 20\nwidth: 16\nheads: 2\ndepth: 1\nlatent: 8\nd_width: 4\nbatch: 16\n"
+        "epochs: 1\ntrain_split: s/train\n");
+    write_file(dir / "sweep.yaml",
+               "name: real\n"
+               "datasets: {toy: {path: " +
+                   toy().string() +
+                   "}}\n"
+                   "recognisers: {toy: {data: toy, config: r.yaml}}\n"
+                   "base: {data: toy, recogniser: toy, config: g.yaml, split: s/train, window: 20, repeats: "
+                   "2, per_class: 3}\n"
+                   "rows: {full: {fills: [table3/full/NTU-1P]}}\n");
+    const auto out = (dir / "out").string();
+    const auto result = run_actformer("sweep " + (dir / "sweep.yaml").string() + " -o " + out);
+    ASSERT_EQ(result.exit, 0) << result.output;
+    const auto row = Json::parse(read_file(dir / "out/results.json"))["rows"][0];
+    EXPECT_EQ(row["status"], "done") << row["why"];
+    const auto scores = Json::parse(read_file(dir / "out" / row["runs"][0]["scores"].get<std::string>()));
+    EXPECT_EQ(scores["fid_whole"]["repeats"].size(), 2U);
+    EXPECT_TRUE(fs::exists(dir / "out" / row["runs"][0]["motions"].get<std::string>()));
 }
