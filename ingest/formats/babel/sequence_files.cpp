@@ -98,10 +98,13 @@ std::vector<std::size_t> SequenceFiles::of(std::string_view path) const {
     if (found == by_trial_.end()) return out;
     // The subset is the last part before the subject that is a subset's name.
     std::string set;
-    for (std::size_t i = 0; i + 2 < parts.size(); ++i) {
-        auto name = canonical(parts[i].substr(0, parts[i].find('.')));
-        if (is_subset(name) || sets_.contains(name)) set = std::move(name);
-    }
+    for (std::size_t i = 0; i + 2 < parts.size(); ++i)
+        for (const auto part : {parts[i], parts[i].substr(0, parts[i].find('.'))}) {  // as in CMU.tar.bz2
+            auto name = canonical(part);
+            if (!is_subset(name) && !sets_.contains(name)) continue;
+            set = std::move(name);
+            break;
+        }
     for (const auto& entry : found->second)
         if (set.empty() || entry.set == set || entry.folder == set) out.push_back(entry.sequence);
     return out;

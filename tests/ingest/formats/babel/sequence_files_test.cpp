@@ -18,6 +18,8 @@ TEST(SequenceFiles, AreFoundUnderTheNamesOfAllYears) {
     ASSERT_TRUE(files.add("ACCAD/ACCAD/Female1Walking_c3d/D7 - walk to bow_poses.npz"));
     ASSERT_TRUE(files.add("KIT/KIT/3/walk_poses.npz"));
     ASSERT_TRUE(files.add("EKUT/EKUT/3/walk_poses.npz"));
+    ASSERT_TRUE(files.add("Mine/v1.2/3/walk_poses.npz"));
+    ASSERT_TRUE(files.add("Mine/v1/3/walk_poses.npz"));
     EXPECT_FALSE(files.add("walk_poses.npz"));
     const std::pair<const char*, Found> wanted[]{
         {"/data/amass/BioMotionLab_NTroje/rub001/0005_treadmill_poses.npz", {0}},
@@ -34,7 +36,10 @@ TEST(SequenceFiles, AreFoundUnderTheNamesOfAllYears) {
         {"amass/KIT/3/walk_poses.npz", {4}},
         {"amass/kit.tar.bz2:3/walk_poses.npz", {4}},
         {"cmu/EKUT/3/walk_poses.npz", {5}},
-        {"3/walk_poses.npz", {4, 5}},
+        {"raw/v1.2/3/walk_poses.npz", {6}},
+        {"raw/v1/3/walk_poses.npz", {7}},
+        {"raw/v1.tar/3/walk_poses.npz", {7}},
+        {"3/walk_poses.npz", {4, 5, 6, 7}},
         {"KIT/3/run_poses.npz", {}},
         {"KIT/4/walk_poses.npz", {}},
         {"walk_poses.npz", {}}};
