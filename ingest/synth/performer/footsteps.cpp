@@ -32,7 +32,7 @@ std::vector<double> paces(const std::vector<Place>& places) {
     return out;
 }
 
-std::vector<Walk> walks(const std::vector<Place>& places, double stride) {
+std::vector<Walk> walks(const std::vector<Place>& places, double stride, double cadence) {
     const auto pace = paces(places);
     constexpr double still = 0.002;
     std::vector<Walk> out;
@@ -43,7 +43,7 @@ std::vector<Walk> walks(const std::vector<Place>& places, double stride) {
         for (; f < places.size() && pace[f] >= still; ++f) w.clock.push_back(total += pace[f]);
         w.last = f - 1;
         const double seconds = static_cast<double>(w.last - w.first) / 30;
-        const double wanted = std::clamp(total / stride, 0.0, seconds * 2.4);
+        const double wanted = std::clamp(total / stride, 0.0, seconds * cadence);
         w.steps = std::max(total > 0.12 ? 2 : 1, static_cast<int>(std::lround(wanted)));
         for (auto& c : w.clock) c = c / total * (w.steps + 2 * margin) - margin;
         if (total > 0.03) out.push_back(std::move(w));
@@ -86,10 +86,10 @@ Foot stepping(const Walk& w, const std::vector<Place>& places, const Bearing& be
 
 }  // namespace
 
-Gait walk(const std::vector<Place>& places, const Bearing& bearing, double leg) {
+Gait walk(const std::vector<Place>& places, const Bearing& bearing, double leg, double cadence) {
     Gait gait;
     gait.swing.assign(places.size(), 0);
-    const auto all = walks(places, 0.58 * leg);
+    const auto all = walks(places, 0.58 * leg, cadence);
     auto next = all.begin();
     for (std::size_t f = 0; f < places.size(); ++f) {
         while (next != all.end() && f > next->last) ++next;

@@ -12,7 +12,7 @@ struct Gait {
     std::vector<double> swing;              ///< -1..1: positive where the right arm swings forward
 };
 
-/// `leg` is the length of the legs in metres.
-Gait walk(const std::vector<Place>& places, const Bearing& bearing, double leg);
+/// `leg` is the length of the legs in metres, `cadence` the most steps a second.
+Gait walk(const std::vector<Place>& places, const Bearing& bearing, double leg, double cadence);
 
 }  // namespace actformer::ingest::synth

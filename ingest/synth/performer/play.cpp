@@ -192,7 +192,7 @@ Played played_by(const Programme& programme, int person, const Manner& m, const 
         out.places.push_back(place_at(part, out.postures[f], size, m.distance));
         sway.apply(out.postures[f], static_cast<double>(f) / fps, out.off_target.emplace_back());
     }
-    out.gait = walk(out.places, bearing, body.leg());
+    out.gait = walk(out.places, bearing, body.leg(), programme.cadence);
     std::vector<double> need;
     for (std::size_t f = 0; f < times.size(); ++f) {
         auto& posture = out.postures[f];

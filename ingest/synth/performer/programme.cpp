@@ -131,6 +131,11 @@ Programme& Programme::touch_at(double t) {
     return *this;
 }
 
+Programme& Programme::steps_a_second(double most) {
+    cadence = most;
+    return *this;
+}
+
 std::vector<HandKey> cycles(int n, double from, double to, const std::vector<HandKey>& keys) {
     std::vector<HandKey> out;
     for (int i = 0; i < n; ++i)

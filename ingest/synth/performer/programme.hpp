@@ -143,10 +143,12 @@ class Programme {
     int action;  ///< a number of the table it stands in
     double seconds;
     int persons = 1;
-    double contact = 0;  ///< when two persons touch, 0 where they do not
+    double contact = 0;    ///< when two persons touch, 0 where they do not
+    double cadence = 2.4;  ///< the most steps a second
     std::array<Part, 2> parts;
 
     Programme& touch_at(double t);
+    Programme& steps_a_second(double most);
 
   private:
     int current_ = 0;

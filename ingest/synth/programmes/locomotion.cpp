@@ -14,14 +14,16 @@ Programme walking(double seconds, double metres) {
 /// At `speed` metres a second all along, but for a slower start and end: the clip is cut out of a longer run.
 Programme running(double seconds, double speed) {
     const double metres = 1.18 * speed * seconds;
+    const double strides = speed / 0.96;  // a second: as footsteps have them, two steps of 0.48 m
     return Programme(0, seconds)
         .move(wz, {{-0.4, 0}, {1.4, metres}})
+        .steps_a_second(3.6)
         .both({{0.06, reach, 0.02, -0.5, 0.3}, {0.94, reach, 0.02, -0.5, 0.3}, {1, rest}})
-        .wave(lz, 0.22, 1.2, 0.06, 0.96, 0.5)
-        .wave(rz, 0.22, 1.2, 0.06, 0.96)
-        .wave(py, 0.025, 2.4, 0.06, 0.96)
+        .wave(lz, 0.22, strides, 0.06, 0.96, 0.5)
+        .wave(rz, 0.22, strides, 0.06, 0.96)
+        .wave(py, 0.025, 2 * strides, 0.06, 0.96)
         .move(bend, {{0.08, 9}, {0.9, 9}, {1, 0}})
-        .wave(twist, 6, 1.2, 0.06, 0.96)
+        .wave(twist, 6, strides, 0.06, 0.96)
         .fists(0.8, 0.8);
 }
 
@@ -53,8 +55,8 @@ std::vector<NamedProgramme> on_foot() {
                                   .move(wx, {{0.0, 0}, {0.25, 0.28}, {0.5, 1.0}, {0.75, 1.5}, {1, 1.35}})
                                   .move(wz, {{0.0, 0}, {0.25, 0.75}, {0.5, 0.95}, {0.75, 0.4}, {1, -0.3}})},
         {"incline", walking(3.4, 2.3).move(bend, {{0, 13}}).wave(py, 0.03, 2.0, 0.0, 1).move(nod, {{0, 12}})},
-        {"run", running(2.4, 1.75)},
-        {"jog", running(2.8, 1.35).move(bend, {{0, 4}})},
+        {"run", running(2.8, 1.7)},
+        {"jog", running(3.2, 1.25).move(bend, {{0, 4}})},
         {"sneak", walking(3.6, 1.9)
                       .hold(py, -0.15)
                       .move(bend, {{0, 26}})

@@ -12,6 +12,9 @@
 #include "base/hdf5/reader.hpp"
 #include "base/numpy/npz.hpp"
 #include "base/pickle/pickle.hpp"
+#include "ingest/dataset/height.hpp"
+#include "ingest/formats/formats.hpp"
+#include "ingest/pipeline/pipeline.hpp"
 #include "ingest/synth/babel/acts.hpp"
 #include "ingest/synth/babel/plan.hpp"
 #include "ingest/synth/gta/gta.hpp"
@@ -102,6 +105,46 @@ TEST_F(StandIns, AreTheSameForAnyNumberOfThreadsAndNotForAnotherSeed) {
             << "another seed's clips are there";
         EXPECT_NO_THROW(one.make({dir / fs::path(fmt::format("{}-6-1-1", one.name)), 6, 1, 1, {}}))
             << "made again";
+    }
+}
+
+/// Which way the pelvis faces in the first frame, degrees about y from z.
+double facing(const Motion& motion) {
+    // First two rows of the root's rotation, row-major: x and z of its third column are r02, and r22 by the cross product.
+    const float* r = motion.values.data();
+    const double r22 = double{r[0]} * r[4] - double{r[1]} * r[3];
+    return std::atan2(double{r[2]}, r22) * 180 / pi;
+}
+
+TEST_F(StandIns, ComeThroughTheirIngestUprightAndFacingTheCamera) {
+    kernels::Device device;
+    for (const auto& one : stand_ins()) {
+        made(one.name, 160);
+        const auto entry = std::find_if(formats().begin(), formats().end(),
+                                        [&](const auto& e) { return e.name == one.name; });
+        ASSERT_NE(entry, formats().end()) << one.name;
+        const auto command = entry->command();
+        const auto format = command->open(std::string(one.name));
+        IngestRequest request;
+        request.raw = {dir / fs::path(fmt::format("{}-160-2-1", one.name))};
+        request.out = dir / fs::path("in-" + std::string(one.name));
+        request.one_dataset = command->one_dataset();
+        const auto taken = actformer::ingest::ingest(request, *format, device);
+        EXPECT_FALSE(taken.left_out.contains("broken"))
+            << one.name << ": " << fmt::format("{}", fmt::join(taken.first_rejections, "; "));
+        std::uint64_t clips = 0;
+        for (const auto& folder : datasets_at(request.out)) {
+            const Dataset dataset(folder);
+            clips += dataset.clips().size();
+            const auto height = body_height(dataset);
+            EXPECT_EQ(height->axis, 'y') << folder;
+            EXPECT_NEAR(height->metres, 1.5, 0.2) << folder;
+            if (dataset.header().representation != Representation::rot6d || one.name == "babel") continue;
+            for (std::size_t i = 0; i < dataset.clips().size(); ++i)
+                EXPECT_LT(std::abs(facing(dataset.motion(i))), 150)
+                    << one.name << " " << dataset.clips()[i].name;
+        }
+        EXPECT_GE(clips, 140U) << one.name;
     }
 }
 
