@@ -83,7 +83,7 @@ void append_utf8(std::uint32_t character, std::string& text) {
 bool NumpyArray::take_type(std::string_view spelled) {
     if (spelled.size() < 2 || std::string_view("<>|=").find(spelled[0]) == std::string_view::npos)
         return false;
-    type = spelled;
+    type = printable(spelled.substr(0, 40));  // for messages of one line
     big_endian = spelled[0] == '>';
     const char letter = spelled[1];
     std::size_t number = 0;

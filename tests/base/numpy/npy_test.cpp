@@ -157,3 +157,10 @@ TEST(Npz, ReadsWhatNumPyWrites) {
     EXPECT_EQ(npz_fault(read_file(dir / "objects.npz")).substr(0, 32), "'a': an array of Python objects,");
     EXPECT_NE(npz_fault("no archive"), "taken");
 }
+
+// What a file says for a type goes into messages of one line.
+TEST(Npy, ATypeIsPrintableAndShort) {
+    NumpyArray array;
+    ASSERT_TRUE(array.take_type("<f4\n\x01" + std::string(1000, 'x')));
+    EXPECT_EQ(array.type, "<f4\\x0A\\x01" + std::string(35, 'x'));
+}
