@@ -68,7 +68,8 @@ TEST(TopologyFile, NamesWhatIsWrong) {
         topology_called("smpl25");
         FAIL() << "taken";
     } catch (const Error& e) {
-        EXPECT_STREQ(e.what(),
-                     "no topology 'smpl25': neither a file nor one of ntu25, smpl24, coco17, h36m17, gta22, common15");
+        EXPECT_STREQ(
+            e.what(),
+            "no topology 'smpl25': neither a file nor one of ntu25, smpl24, coco17, h36m17, gta22, common15");
     }
 }
