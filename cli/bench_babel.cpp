@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double seconds_a_file = 12;  // as BABEL's sequences have on average
-constexpr std::uint64_t numbers = 156, smplh_joints = 52;
+constexpr std::uint64_t numbers = 156;
 constexpr std::string_view categories = "walk\nrun\njump\nkick\n";
 
 double rate_of(std::uint64_t file) {
