@@ -111,7 +111,7 @@ TEST_F(Configs, WritesWhatItReads) {
 TEST(ShippedConfigs, AllLoad) {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(source("model/configs"))) {
-        const bool recogniser = entry.path().filename().string().starts_with("recogniser-");
+        const bool recogniser = entry.path().filename().string().starts_with("recogniser");
         auto config = recogniser ? recogniser_config() : read_generator_config(entry.path());
         config.load(entry.path());
         ++count;
