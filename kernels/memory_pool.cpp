@@ -21,12 +21,23 @@ std::shared_ptr<const cl::Buffer> MemoryPool::take(std::size_t bytes) {
     if (bytes < smallest_kept) return std::make_shared<const cl::Buffer>(context_, flags_, bytes);
     const auto wanted = rounded_up(bytes);
     auto block = found(wanted);
-    if (!block.memory()) block = {wanted, cl::Buffer(context_, flags_, wanted)};
-    auto lease = std::make_unique<Block>(std::move(block));
-    const auto* memory = &lease->memory;
-    return {memory, [pool = shared_from_this(), lease = std::shared_ptr<Block>(std::move(lease))](auto*) {
-                pool->give_back(std::move(*lease));
-            }};
+    if (!block.memory()) block = {wanted, allocated(wanted)};
+    const auto lease = std::make_shared<Block>(std::move(block));
+    return {&lease->memory,
+            [pool = shared_from_this(), lease](auto*) { pool->give_back(std::move(*lease)); }};
+}
+
+/// Where memory runs out, what nobody uses goes first.
+cl::Buffer MemoryPool::allocated(std::size_t bytes) {
+    try {
+        return {context_, flags_, bytes};
+    } catch (const cl::Error&) {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty()) throw;
+        free_.clear();
+        free_bytes_ = 0;
+    }
+    return {context_, flags_, bytes};
 }
 
 /// One of just that size; none where there is none.

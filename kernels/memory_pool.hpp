@@ -26,6 +26,7 @@ class MemoryPool : public std::enable_shared_from_this<MemoryPool> {
     };
 
     Block found(std::size_t bytes);
+    cl::Buffer allocated(std::size_t bytes);
     void give_back(Block block);
 
     cl::Context context_;
