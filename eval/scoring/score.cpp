@@ -6,7 +6,7 @@
 #include "base/error.hpp"
 #include "base/files/aside.hpp"
 #include "eval/scoring/real_features.hpp"
-#include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/dataset_json.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -52,7 +52,7 @@ void warn_of_lengths(ScoreReport& report, std::uint32_t window, const StoredFeat
 class Sides {
   public:
     Sides(const ScoreMotions& request, kernels::Device& device, const ScoreProgress& progress)
-        : request_(request), device_(device), progress_(progress) {
+        : request_(request), device_(device), progress_(progress), dataset_(request.real.dataset) {
         if (!request.recogniser.empty()) whole_.emplace(device, request.recogniser, request.real.batch);
         if (!request.single_recogniser.empty())
             single_.emplace(device, request.single_recogniser, request.real.batch, Persons::apart);
@@ -60,6 +60,7 @@ class Sides {
     }
 
     const std::vector<std::string>& classes() const { return classes_; }
+    const ingest::Dataset& dataset() const { return dataset_; }
     const std::optional<FeatureExtractor>& whole() const { return whole_; }
     const std::optional<FeatureExtractor>& single() const { return single_; }
 
@@ -115,9 +116,9 @@ class Sides {
     void check() {
         const auto real = open_windows(device_, request_.real);
         classes_ = real->info().classes;
-        if (whole_) whole_->check_fits(open_windows(device_, windows_for(*whole_))->info());
+        if (whole_) check_real(*whole_, real->info());
         if (whole_) whole_->check_classes(real->info());
-        if (single_) single_->check_fits(open_windows(device_, windows_for(*single_))->info());
+        if (single_) check_real(*single_, real->info());
         if (single_ && real->info().persons < 2)
             throw Error("{}: has one person a clip, for which --single-recogniser has no use",
                         request_.real.dataset.string());
@@ -126,6 +127,12 @@ class Sides {
             check_set(set, motions->info());
             views_.push_back(motions->info().view);
         }
+    }
+
+    /// Windows come in the joints that the extractor must be shown.
+    void check_real(const FeatureExtractor& extractor, const MotionsInfo& own) const {
+        const auto joints = extractor.joints_of(own);
+        extractor.check_fits(joints == ingest::Joints::own ? own : describe(dataset_, joints));
     }
 
     void check_side(const MotionsInfo& motions) const {
@@ -153,7 +160,7 @@ class Sides {
 
     WindowsOptions windows_for(const FeatureExtractor& extractor) const {
         auto windows = request_.real;
-        windows.joints = extractor.joints_of(describe(ingest::Dataset(windows.dataset)));
+        windows.joints = extractor.joints_of(describe(dataset_));
         return windows;
     }
 
@@ -181,21 +188,14 @@ class Sides {
     const ScoreMotions& request_;
     kernels::Device& device_;
     const ScoreProgress& progress_;
+    ingest::Dataset dataset_;
     std::optional<FeatureExtractor> whole_, single_;
     std::vector<std::string> classes_, views_;
     StoredFeatures first_repeat_;  ///< its frames
 };
 
-/// As dataset.json has it; empty where it tells none.
-Json origin_json(const ingest::DataOrigin& origin) {
-    Json out = Json::object();
-    if (origin.kind) out["data"] = ingest::name_of(*origin.kind);
-    if (!origin.skeleton.empty()) out["skeleton"] = origin.skeleton;
-    return out;
-}
-
 Json provenance_of_motions(const ScoreMotions& request, const Sides& sides, const std::string& device) {
-    const ingest::Dataset dataset(request.real.dataset);
+    const auto& dataset = sides.dataset();
     const auto recogniser = [](const FeatureExtractor& extractor) {
         return Json{{"path", extractor.weights().string()}, {"checksum", extractor.checksum()}};
     };
@@ -207,7 +207,7 @@ Json provenance_of_motions(const ScoreMotions& request, const Sides& sides, cons
                    {"fingerprint", dataset.fingerprint()},
                    {"split", request.real.split},
                    {"window", request.real.window}};
-    if (const auto origin = origin_json(dataset.header().origin); !origin.empty())
+    if (const auto origin = ingest::to_json(dataset.header().origin); !origin.empty())
         out["real"]["origin"] = origin;
     out["generated"] = Json::array();
     for (std::size_t i = 0; i < request.generated.size(); ++i) {

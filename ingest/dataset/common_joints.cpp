@@ -94,12 +94,16 @@ CommonJoints::CommonJoints(BodyModel body, const std::string& where) : body_(std
 }
 
 Motion CommonJoints::of(const Motion& motion) const {
-    return of(motion, body_.bone_length);
+    return seen(motion, body_);
 }
 
 Motion CommonJoints::of(const Motion& motion, std::vector<float> bone_length) const {
     auto body = body_;
     body.bone_length = std::move(bone_length);
+    return seen(motion, body);
+}
+
+Motion CommonJoints::seen(const Motion& motion, const BodyModel& body) const {
     const auto values = joint_positions(motion, body);
     const Positions positions{values, motion.frames, motion.persons, body.topology.joints(), joints_};
     const auto centre = positions.mean_root();

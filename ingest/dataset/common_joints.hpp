@@ -1,5 +1,5 @@
 // Motions of different skeletons seen alike, so that a recogniser trained on one dataset can see those of another: GTA Combat
-// has one class, and its FIDa are features of a recogniser of NTU RGB+D (ActFormer, section 4.1).
+// has one class, and its FIDa are features of a recogniser of NTU RGB+D (ActFormer, Table 2).
 #pragma once
 
 #include <string>
@@ -20,15 +20,16 @@ class CommonJoints {
     /// common15(), or it lacks what gives their positions.
     CommonJoints(BodyModel body, const std::string& where);
 
-    /// The motion as limbs of common15(), (frames, persons, 15, 3). Roots are relative to their mean over frames and persons, and
-    /// each person's in the measure of its own legs: times 0.75 m / (mean length from hip to ankle), for a child's step and a
-    /// giant's are the same action.
+    /// The motion as limbs of common15(), (frames, persons, 15, 3). Roots are relative to their mean over frames and persons. Each
+    /// person's are scaled by 0.75 m / (its mean length from hip to ankle): a tall body's step and a small one's are the same action.
     Motion of(const Motion& motion) const;
 
     /// The same, with limb lengths of the clip at hand.
     Motion of(const Motion& motion, std::vector<float> bone_length) const;
 
   private:
+    Motion seen(const Motion& motion, const BodyModel& body) const;
+
     BodyModel body_;
     const std::uint32_t* joints_;  ///< (15) of the body
 };

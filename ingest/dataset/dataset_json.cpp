@@ -71,13 +71,6 @@ DataOrigin origin_from_json(const Json& json, const std::string& where) {
     return origin;
 }
 
-Json origin_to_json(const DataOrigin& origin) {
-    Json said = Json::object();
-    if (origin.kind) said["data"] = name_of(*origin.kind);
-    if (!origin.skeleton.empty()) said["skeleton"] = origin.skeleton;
-    return said;
-}
-
 DatasetFile from_json(const Json& json, const std::string& where) {
     if (const auto format = json.at("format").get<int>(); format < 1 || format > dataset_format)
         throw Error(
@@ -108,6 +101,13 @@ DatasetFile from_json(const Json& json, const std::string& where) {
 }
 
 }  // namespace
+
+Json to_json(const DataOrigin& origin) {
+    Json said = Json::object();
+    if (origin.kind) said["data"] = name_of(*origin.kind);
+    if (!origin.skeleton.empty()) said["skeleton"] = origin.skeleton;
+    return said;
+}
 
 Json to_json(const ShardEntry& shard) {
     return {{"file", shard.file},
@@ -152,7 +152,7 @@ std::string to_text(const DatasetFile& file) {
               {"source", file.fingerprint},
               {"shards", shards}};
     if (!header.rest.empty()) json["rest"] = rest_to_json(header.rest);
-    if (header.origin != DataOrigin{}) json["origin"] = origin_to_json(header.origin);
+    if (header.origin != DataOrigin{}) json["origin"] = to_json(header.origin);
     if (header.centre_windows) json["centre"] = "window";
     if (!file.remarks.empty()) json["remarks"] = file.remarks;
     return json.dump(1) + "\n";

@@ -27,6 +27,9 @@ std::string to_text(const DatasetFile& file);
 /// Throws Error naming `path` and the key at fault.
 DatasetFile read_dataset_json(const std::filesystem::path& path);
 
+/// {"data": .., "skeleton": ..}; what is not told is left out.
+nlohmann::ordered_json to_json(const DataOrigin& origin);
+
 nlohmann::ordered_json to_json(const ShardEntry& shard);
 ShardEntry shard_from_json(const nlohmann::json& json);
 
