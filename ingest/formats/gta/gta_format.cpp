@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/formats/detections.hpp"
 #include "ingest/formats/gta/jta_file.hpp"
 
 namespace actformer::ingest {
@@ -226,31 +227,13 @@ ParsedClip GtaFormat::jta_clip(const RawText& raw) const {
 kernels::CleanedBatch GtaFormat::clean(kernels::Device& device, std::size_t dataset,
                                        std::span<const std::unique_ptr<RawClip>> clips,
                                        std::vector<std::uint32_t>& frames) const {
-    kernels::ClipBatch batch;
-    batch.persons = datasets_[dataset].persons;
-    batch.joints = gta_joints;
-    batch.first = {0};
-    for (const auto& raw : clips) {
-        const auto& clip = static_cast<const GtaClip&>(*raw);
-        batch.frames.push_back(clip.frames);
-        batch.step.push_back(1);
-        for (const auto& person : clip.persons) {
-            batch.times.insert(batch.times.end(), person.times.begin(), person.times.end());
-            batch.first.push_back(static_cast<std::uint32_t>(batch.times.size()));
-        }
-    }
-    frames = batch.frames;
-    auto limbs = kernels::limb_buffer(device, batch.times.size(), gta_joints);
-    limbs.write_with([&](std::span<float> to) {
-        auto at = to.begin();
-        for (const auto& raw : clips)
-            for (const auto& person : static_cast<const GtaClip&>(*raw).persons)
-                at = std::copy(person.limbs.begin(), person.limbs.end(), at);
-    });
-    auto cleaned = kernels::clean(device, batch, limbs, kernels::Smoothing{0, 0});
+    const auto persons = datasets_[dataset].persons;
+    auto cleaned = clean_detections<GtaClip>(
+        device, persons, gta_joints, clips, [](const GtaClip& clip) -> auto& { return clip.persons; },
+        kernels::Smoothing{0, 0}, frames);
     auto at = cleaned.bone_length.begin();
     for (const auto& raw : clips)
-        for (std::size_t p = 0; p < batch.persons; ++p, at += gta_joints)
+        for (std::size_t p = 0; p < persons; ++p, at += gta_joints)
             if (static_cast<const GtaClip&>(*raw).usual_lengths)
                 std::copy(lengths_.begin(), lengths_.end(), at);
     return cleaned;

@@ -6,6 +6,7 @@
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
+#include "ingest/formats/detections.hpp"
 #include "ingest/formats/ntu/actions.hpp"
 #include "ingest/formats/ntu/name.hpp"
 #include "ingest/formats/ntu/skeleton_file.hpp"
@@ -229,28 +230,9 @@ ParsedClip NtuFormat::make_clip(Planned planned, SkeletonFile file) const {
 kernels::CleanedBatch NtuFormat::clean(kernels::Device& device, std::size_t dataset,
                                        std::span<const std::unique_ptr<RawClip>> clips,
                                        std::vector<std::uint32_t>& frames) const {
-    kernels::ClipBatch batch;
-    batch.persons = datasets_[dataset].persons;
-    batch.joints = ntu_joints;
-    batch.first = {0};
-    for (const auto& raw : clips) {
-        const auto& clip = static_cast<const NtuClip&>(*raw);
-        batch.frames.push_back(clip.frames);
-        batch.step.push_back(1);
-        for (const auto& body : clip.bodies) {
-            for (const auto time : body.times) batch.times.push_back(static_cast<float>(time));
-            batch.first.push_back(static_cast<std::uint32_t>(batch.times.size()));
-        }
-    }
-    frames = batch.frames;
-    auto limbs = kernels::limb_buffer(device, batch.times.size(), ntu_joints);
-    limbs.write_with([&](std::span<float> to) {
-        auto at = to.begin();
-        for (const auto& raw : clips)
-            for (const auto& body : static_cast<const NtuClip&>(*raw).bodies)
-                at = std::copy(body.limbs.begin(), body.limbs.end(), at);
-    });
-    return kernels::clean(device, batch, limbs, options_.smoothing);
+    return clean_detections<NtuClip>(
+        device, datasets_[dataset].persons, ntu_joints, clips,
+        [](const NtuClip& clip) -> auto& { return clip.bodies; }, options_.smoothing, frames);
 }
 
 }  // namespace actformer::ingest
