@@ -4,17 +4,15 @@
 
 #include "ingest/formats/babel/annotations.hpp"
 #include "ingest/formats/babel/sequence_files.hpp"
+#include "tests/fuzz/fuzzing.hpp"
 
 using namespace actformer::ingest;
+using namespace actformer::fuzzing;
 
 namespace {
 
-void demand(bool holds) {
-    if (!holds) std::abort();
-}
-
 void check(const Rejection& rejection) {
-    demand(!rejection.reason.empty() && rejection.reason.find('\n') == std::string::npos);
+    demand_one_line(rejection.reason);
 }
 
 }  // namespace

@@ -6,32 +6,15 @@
 #include "base/error.hpp"
 #include "ingest/smpl/body_file.hpp"
 #include "ingest/smpl/model_arrays.hpp"
+#include "tests/fuzz/fuzzing.hpp"
 
 using namespace actformer;
 using namespace actformer::ingest;
-
-namespace {
-
-void demand(bool holds) {
-    if (!holds) std::abort();
-}
-
-template <typename Read>
-void try_to(Read read) {
-    try {
-        read();
-    } catch (const Error& e) {
-        demand(*e.what() != '\0' && std::string_view(e.what()).find('\n') == std::string_view::npos);
-    }
-}
-
-}  // namespace
+using namespace actformer::fuzzing;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    // In an allocation of just that size, so that the sanitizer sees any byte read beyond it.
-    const auto copy = std::make_unique<char[]>(size);
-    std::copy(data, data + size, copy.get());
-    const std::string_view bytes(copy.get(), size);
+    const Input input(data, size);
+    const auto bytes = input.text();
     try_to([&] {
         const auto body = parse_smpl_body(bytes, "body");
         for (const auto v : body.faces) demand(v < body.skin.vertices());

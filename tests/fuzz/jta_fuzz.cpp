@@ -5,25 +5,16 @@
 #include <memory>
 
 #include "ingest/formats/gta/jta_file.hpp"
+#include "tests/fuzz/fuzzing.hpp"
 
 using namespace actformer::ingest;
-
-namespace {
-
-void demand(bool holds) {
-    if (!holds) std::abort();
-}
-
-}  // namespace
+using namespace actformer::fuzzing;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    constexpr std::size_t padding = 64;
-    const auto copy = std::make_unique<char[]>(size + padding);
-    std::copy(data, data + size, copy.get());
-    std::memset(copy.get() + size, 0, padding);
-    const auto said = read_jta({copy.get(), size});
+    const Input input(data, size, 64);
+    const auto said = read_jta(input.text());
     if (const auto* rejection = std::get_if<Rejection>(&said)) {
-        demand(!rejection->reason.empty() && rejection->reason.find('\n') == std::string::npos);
+        demand_one_line(rejection->reason);
         return 0;
     }
     const auto& file = std::get<JtaFile>(said);

@@ -8,15 +8,13 @@
 #include "base/error.hpp"
 #include "base/hdf5/file_memory.hpp"
 #include "base/hdf5/reader.hpp"
+#include "tests/fuzz/fuzzing.hpp"
 
 using namespace actformer;
+using namespace actformer::fuzzing;
 using hdf5::Handle;
 
 namespace {
-
-void demand(bool holds) {
-    if (!holds) std::abort();
-}
 
 /// Numbers out of the fuzzer's bytes; zeros behind the last.
 class Choices {

@@ -6,15 +6,13 @@
 #include "base/error.hpp"
 #include "base/numpy/npz.hpp"
 #include "ingest/formats/motions/joint_array.hpp"
+#include "tests/fuzz/fuzzing.hpp"
 
 using namespace actformer;
 using namespace actformer::ingest;
+using namespace actformer::fuzzing;
 
 namespace {
-
-void demand(bool holds) {
-    if (!holds) std::abort();
-}
 
 void check(const NumpyArray& array, std::string_view bytes) {
     if (array.kind == NumpyArray::Kind::other) return;
@@ -29,26 +27,15 @@ void check(const NumpyArray& array, std::string_view bytes) {
             const auto* end = joints.end_of_clip(joints.clips() - 1);
             demand(end >= array.values.data() && end <= array.values.data() + array.values.size());
         } catch (const Error& e) {
-            demand(std::string_view(e.what()).find('\n') == std::string_view::npos);
+            demand_one_line(e.what());
         }
-}
-
-template <typename Read>
-void try_to(Read read) {
-    try {
-        read();
-    } catch (const Error& e) {
-        demand(*e.what() != '\0' && std::string_view(e.what()).find('\n') == std::string_view::npos);
-    }
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    // In an allocation of just that size, so that the sanitizer sees any byte read beyond it.
-    const auto copy = std::make_unique<char[]>(size);
-    std::copy(data, data + size, copy.get());
-    const std::string_view bytes(copy.get(), size);
+    const Input input(data, size);
+    const auto bytes = input.text();
     try_to([&] { check(read_npy(bytes), bytes); });
     for (const bool heads : {true, false})
         try_to([&] {

@@ -5,14 +5,12 @@
 
 #include "base/error.hpp"
 #include "base/pickle/pickle.hpp"
+#include "tests/fuzz/fuzzing.hpp"
 
 using namespace actformer;
+using namespace actformer::fuzzing;
 
 namespace {
-
-void demand(bool holds) {
-    if (!holds) std::abort();
-}
 
 /// Some of the values, and all bytes of their arrays.
 void walk(const PickleValue& value, int depth, int& left) {
@@ -37,19 +35,17 @@ void walk(const PickleValue& value, int depth, int& left) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    // In an allocation of just that size, so that the sanitizer sees any byte read beyond it.
-    const auto copy = std::make_unique<char[]>(size);
-    std::copy(data, data + size, copy.get());
+    const Input input(data, size);
     PickleLimits limits;
     limits.memory = 32 << 20;
     limits.unpacked = 1 << 20;
     try {
-        const Pickle pickle({copy.get(), size}, limits);
+        const Pickle pickle(input.text(), limits);
         int left = 1000;
         walk(pickle.root(), 20, left);
         pickle.root().find("x");
     } catch (const Error& e) {
-        demand(*e.what() != '\0' && std::string_view(e.what()).find('\n') == std::string_view::npos);
+        demand_one_line(e.what());
     }
     return 0;
 }

@@ -9,15 +9,13 @@
 #include "ingest/formats/ntu13/ntu13_format.hpp"
 #include "ingest/formats/nturecon/nturecon_format.hpp"
 #include "ingest/formats/uestc/uestc_format.hpp"
+#include "tests/fuzz/fuzzing.hpp"
 
 using namespace actformer;
 using namespace actformer::ingest;
+using namespace actformer::fuzzing;
 
 namespace {
-
-void demand(bool holds) {
-    if (!holds) std::abort();
-}
 
 class Checking : public ClipSink {
   public:
@@ -25,7 +23,7 @@ class Checking : public ClipSink {
 
     void take(ParsedClip clip) override {
         if (const auto* rejection = std::get_if<Rejection>(&clip)) {
-            demand(!rejection->reason.empty() && rejection->reason.find('\n') == std::string::npos);
+            demand_one_line(rejection->reason);
             return;
         }
         const auto& made = *std::get<0>(clip);
@@ -54,10 +52,8 @@ void read(Format& format, std::string_view path, std::string_view text) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    // In an allocation of just that size, so that the sanitizer sees any byte read beyond it.
-    const auto copy = std::make_unique<char[]>(size);
-    std::copy(data, data + size, copy.get());
-    const std::string_view text(copy.get(), size);
+    const Input input(data, size);
+    const auto text = input.text();
 
     NtuReconFormat nturecon("x", {});
     read(nturecon, "S001C001P001R001A001_body0.pkl", text);

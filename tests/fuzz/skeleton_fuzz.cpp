@@ -6,14 +6,12 @@
 
 #include "base/files/file.hpp"
 #include "ingest/formats/ntu/skeleton_file.hpp"
+#include "tests/fuzz/fuzzing.hpp"
 
 using namespace actformer::ingest;
+using namespace actformer::fuzzing;
 
 namespace {
-
-void demand(bool holds) {
-    if (!holds) std::abort();
-}
 
 void check(const SkeletonFile& file) {
     for (const auto& body : file.bodies) {
@@ -32,8 +30,7 @@ void check(const Rejection& why) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     // In an allocation of just the promised size, so that the sanitizer sees any byte read beyond it.
-    const auto text = std::make_unique<char[]>(size + actformer::text_padding);
-    std::memcpy(text.get(), data, size);
-    std::visit([](const auto& result) { check(result); }, read_skeleton({text.get(), size}));
+    const Input input(data, size, actformer::text_padding);
+    std::visit([](const auto& result) { check(result); }, read_skeleton(input.text()));
     return 0;
 }
