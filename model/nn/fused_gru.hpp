@@ -1,0 +1,48 @@
+// GRU cells over frames on processors as differentiable functions of tensors (model/cpu/gru_kernel.hpp). Includes torch headers.
+//
+// Tensors are float or double, on the CPU; states multiples of 16 wide. Without gradients (at::NoGradGuard) nothing is kept for the way
+// back.
+#pragma once
+
+#include <ATen/ATen.h>
+
+#include "model/cpu/chain_kernel.hpp"
+#include "model/nn/fused.hpp"
+
+namespace actformer::model {
+
+/// Gates in the order r, z, n: weights (3*hidden, hidden), biases (3*hidden). The first cell's `input` is not looked at.
+struct GruTensors {
+    LinearTensors input, hidden;
+};
+
+/// What the first cell's gates are given, without what is fed back: products (T, N, 3*hidden), of_sample (N, 3*hidden), of_frame
+/// (T, 3*hidden).
+struct GruInputs {
+    at::Tensor products, of_sample, of_frame;
+};
+
+/// States (T, N, hidden) of the last of one or two cells.
+at::Tensor fused_gru(const GruInputs& inputs, const std::vector<GruTensors>& cells);
+
+/// A pose's rotations in place of its positions: see cpu::BentBody. bones (T, N, joints).
+struct BentTensors {
+    LinearTensors weight;
+    const cpu::Chains* chains = nullptr;  ///< none: no body is bent. They must outlive the way back
+    at::Tensor bones;
+    bool feeds_joints = false;
+};
+
+struct FusedPoses {
+    at::Tensor out, joints;  ///< (T, N, numbers); joints only of a bent body
+};
+
+/// Poses out of the second cell's states, each fed back: in frame t the first cell's gates get weight (3*hidden, numbers) times the pose
+/// of frame t - 1.
+FusedPoses fused_fed_back_poses(const GruInputs& inputs, const std::vector<GruTensors>& cells,
+                                const at::Tensor& weight, const LinearTensors& head, const BentTensors& bent);
+
+/// poses (M, 3J), bones (M, J) -> joints (M, 3J), as cpu::bend_forward. No gradient to the bones.
+at::Tensor fused_bent_joints(const cpu::Chains& chains, const at::Tensor& poses, const at::Tensor& bones);
+
+}  // namespace actformer::model
