@@ -4,6 +4,7 @@
 #include "base/text/nearest_word.hpp"
 #include "base/text/printable.hpp"
 #include "model/generators/actformer/method.hpp"
+#include "model/generators/action2motion/method.hpp"
 #include "model/generators/generator_settings.hpp"
 #include "model/generators/method.hpp"
 #include "model/train/learner.hpp"
@@ -13,6 +14,7 @@ namespace actformer::model {
 const std::vector<Method>& methods() {
     static const std::vector<Method> all{
         actformer_method(),
+        action2motion::method(),
     };
     return all;
 }
@@ -59,6 +61,7 @@ MotionSpec spec_of(const ingest::Subjects& subjects, const std::string& where) {
     spec.persons = subjects.persons;
     spec.classes = static_cast<std::uint32_t>(subjects.classes.size());
     spec.where = where;
+    spec.bone_length = subjects.bone_length;
     return spec;
 }
 

@@ -1,0 +1,125 @@
+#include "model/generators/action2motion/settings.hpp"
+
+#include "base/error.hpp"
+#include "model/generators/action2motion/chains.hpp"
+#include "model/train/key_table.hpp"
+
+namespace actformer::model::action2motion {
+namespace {
+
+/// Vectors of the fused cells are whole.
+constexpr std::uint32_t width_step = 16;
+
+KeyTable<Settings> network_table() {
+    KeyTable<Settings> table;
+    table
+        .add(&Settings::persons,
+             {.name = "persons", .meaning = "persons a clip; 0 takes the dataset's", .least = 0, .most = 16})
+        .add(&Settings::classes,
+             {.name = "classes", .meaning = "classes; 0 takes the dataset's", .least = 0, .most = 100000})
+        .add(&Settings::frames, {.name = "frames",
+                                 .meaning = "frames a window, and the most that can be generated",
+                                 .least = 2,
+                                 .most = 4096})
+        .add(&Settings::hidden,
+             {.name = "hidden", .meaning = "numbers of a GRU's state", .least = width_step, .most = 8192})
+        .add(&Settings::latent,
+             {.name = "latent", .meaning = "numbers of a frame's latent", .least = 1, .most = 8192})
+        .add(&Settings::time_counter,
+             {.name = "time_counter", .meaning = "whether the networks see how far the motion has come"})
+        .add(&Settings::body,
+             {.name = "body",
+              .meaning = "plain: the decoder gives poses; lie: rotations along chains of bones, for one "
+                         "person of limbs or positions",
+              .choices = {"plain", "lie"}})
+        .add(&Settings::feedback,
+             {.name = "feedback",
+              .meaning = "what a lie body sees of its last frame: raw (rotations, as published) or joints",
+              .choices = {"raw", "joints"}});
+    return table;
+}
+
+const KeyTable<Settings>& table() {
+    static const auto all = [] {
+        auto table = network_table();
+        table
+            .add(&Settings::tf_ratio, {.name = "tf_ratio",
+                                       .meaning = "share of batches that are fed their own outputs, the "
+                                                  "others the truth",
+                                       .least = 0,
+                                       .most = 1})
+            .add(&Settings::lambda_kl, {.name = "lambda_kl",
+                                        .meaning = "weight of the Kullback-Leibler divergence in the loss",
+                                        .least = 0,
+                                        .most = 1e6})
+            .add(&Settings::rate, {.name = "rate", .meaning = "learning rate", .least = 0, .most = 1})
+            .add(&Settings::beta1, {.name = "beta1",
+                                    .meaning = "of Adam: decay of the mean gradient",
+                                    .least = 0,
+                                    .most = 0.9999})
+            .add(&Settings::beta2, {.name = "beta2",
+                                    .meaning = "of Adam: decay of the mean squared gradient",
+                                    .least = 0,
+                                    .most = 0.999999})
+            .add(&Settings::weight_decay, {.name = "weight_decay",
+                                           .meaning = "share of a weight that joins its gradient",
+                                           .least = 0,
+                                           .most = 1})
+            .add(&Settings::average,
+                 {.name = "average",
+                  .meaning = "decay a step of the weights' EMA, as in 0.999; 0 keeps none",
+                  .least = 0,
+                  .most = 0.999999});
+        return table;
+    }();
+    return all;
+}
+
+void check_motions(const Settings& asked, const MotionSpec& spec) {
+    if (asked.persons != 0 && asked.persons != spec.persons)
+        throw Error("{}: {} person{} a clip, but the configuration says persons: {}", spec.where,
+                    spec.persons, spec.persons == 1 ? "" : "s", asked.persons);
+    if (asked.classes != 0 && asked.classes != spec.classes)
+        throw Error("{}: {} classes, but the configuration says classes: {}", spec.where, spec.classes,
+                    asked.classes);
+}
+
+void check_lie(const MotionSpec& spec) {
+    if (spec.persons != 1)
+        throw Error("{}: {} persons a clip; body: lie is for one, body: plain takes several", spec.where,
+                    spec.persons);
+    if (spec.representation == ingest::Representation::rot6d)
+        throw Error(
+            "{}: representation rot6d; body: lie is for limbs or positions of joints, body: plain takes all",
+            spec.where);
+    if (!chains_of(spec.topology.parents))
+        throw Error(
+            "{}: its tree of {} joints has no chains; body: lie is for those of NTU RGB+D (25), SMPL (24) "
+            "and "
+            "NTU-13 (18), body: plain takes any",
+            spec.where, spec.topology.joints());
+}
+
+}  // namespace
+
+std::vector<Key> keys() {
+    return table().keys();
+}
+
+Settings settings_of(const Config& config, const MotionSpec& spec) {
+    auto settings = table().read(config);
+    if (config.has("seed")) settings.seed = static_cast<std::uint64_t>(config.get<std::int64_t>("seed"));
+    check_motions(settings, spec);
+    if (settings.body == Body::lie) check_lie(spec);
+    if (settings.hidden % width_step != 0)
+        throw Error("hidden: {} is no multiple of {}; as in hidden: {}", settings.hidden, width_step,
+                    settings.hidden / width_step * width_step);
+    settings.persons = spec.persons;
+    settings.classes = spec.classes;
+    settings.representation = spec.representation;
+    settings.topology = spec.topology;
+    settings.bone_length = spec.bone_length;
+    return settings;
+}
+
+}  // namespace actformer::model::action2motion
