@@ -1,12 +1,10 @@
 #include "model/nn/fused.hpp"
 
-#include <ATen/Parallel.h>
 #include <torch/csrc/autograd/custom_function.h>
 
-#include "model/cpu/layer_clock.hpp"
 #include "model/cpu/motion_kernels.hpp"
 #include "model/cpu/spectral_kernel.hpp"
-#include "model/nn/tensor_numbers.hpp"
+#include "model/nn/function_support.hpp"
 
 namespace actformer::model {
 namespace {
@@ -14,43 +12,6 @@ namespace {
 using torch::autograd::AutogradContext;
 using torch::autograd::Function;
 using torch::autograd::variable_list;
-
-/// by_type() under a layer's name.
-template <typename Run>
-void timed(const char* layer, bool backward, const at::Tensor& x, const Run& run) {
-    const LayerTimer timer(layer, backward);
-    by_type(x, run);
-}
-
-template <typename T>
-cpu::LinearWeight<T> linear_of(const at::Tensor& weight, const at::Tensor& bias) {
-    return {in<T>(weight), in<T>(bias)};
-}
-
-template <typename T>
-cpu::NormWeight<T> norm_of(const at::Tensor& weight, const at::Tensor& bias) {
-    return {in<T>(weight), in<T>(bias)};
-}
-
-/// Room for a weight's and a bias's gradients.
-struct Gradients {
-    at::Tensor weight, bias;
-
-    Gradients(const at::Tensor& of_weight, const at::Tensor& of_bias)
-        : weight(at::empty_like(of_weight)), bias(at::empty_like(of_bias)) {}
-    template <typename T>
-    cpu::ParameterGradient<T> to() const {
-        return {in<T>(weight), in<T>(bias)};
-    }
-};
-
-bool keeps() {
-    return at::GradMode::is_enabled();
-}
-
-int threads() {
-    return at::get_num_threads();
-}
 
 struct Spectral : Function<Spectral> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& weight, const at::Tensor& u,
