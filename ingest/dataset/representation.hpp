@@ -6,7 +6,7 @@
 //   2. Say in representation.cpp how its nodes hang together, which of them carries the body's position, and which of them move when
 //      the body does.
 //   3. Say in joint_positions (body_model.cpp) how joints come out of it.
-//   4. Where no Finish suits it, add one: Generator::finished (model/generators/actformer/generator.cpp) in libtorch, and
+//   4. Where no Finish suits it, add one: normalised (model/generators/finish.cpp) in libtorch, and
 //      pose_forward, pose_backward (model/cpu/pose_kernel.cpp) on processors.
 //   5. Give tests/support/made_dataset.hpp a small dataset in it. The tests that go through all representations do the rest:
 //      they train, generate, score and draw.

@@ -1,5 +1,7 @@
 #include "model/generators/generator_settings.hpp"
 
+#include "base/error.hpp"
+
 namespace actformer::model {
 namespace {
 
@@ -31,6 +33,17 @@ const KeyTable<GeneratorTrainerSettings>& table() {
 
 std::vector<Key> generator_keys() {
     return table().keys();
+}
+
+void check_subjects(const Config& config, std::uint32_t persons, std::size_t classes,
+                    const std::string& where) {
+    const auto wanted_persons = config.get<std::int64_t>("persons"),
+               wanted_classes = config.get<std::int64_t>("classes");
+    if (wanted_persons != 0 && wanted_persons != persons)
+        throw Error("{}: {} person{} a clip, but the configuration says persons: {}", where, persons,
+                    persons == 1 ? "" : "s", wanted_persons);
+    if (wanted_classes != 0 && static_cast<std::size_t>(wanted_classes) != classes)
+        throw Error("{}: {} classes, but the configuration says classes: {}", where, classes, wanted_classes);
 }
 
 GeneratorTrainerSettings generator_trainer_settings(const Config& config) {

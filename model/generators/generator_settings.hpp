@@ -1,6 +1,7 @@
 // What a generator's training may be told whatever its method.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "model/train/trainer_settings.hpp"
@@ -19,5 +20,9 @@ struct GeneratorTrainerSettings : TrainerSettings {
 std::vector<Key> generator_keys();
 
 GeneratorTrainerSettings generator_trainer_settings(const Config& config);
+
+/// Throws Error, beginning with `where`, where the configuration's `persons` or `classes` are others than the motions'.
+void check_subjects(const Config& config, std::uint32_t persons, std::size_t classes,
+                    const std::string& where);
 
 }  // namespace actformer::model

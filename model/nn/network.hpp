@@ -5,6 +5,7 @@
 #include <functional>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace actformer::model {
@@ -28,11 +29,20 @@ struct NetworkWeight {
     bool spectral = false;  ///< divided by its largest singular value as a matrix of `rows` rows
     std::int64_t rows = 0;
     bool trained = true;
+    std::string same_as = {};  ///< a weight before it, of the same shape, of which it begins as a copy
 
     std::int64_t count() const {
         return std::accumulate(shape.begin(), shape.end(), std::int64_t{1}, std::multiplies<>());
     }
 };
+
+/// Numbers that training moves, of weights whose names begin with `prefix`.
+inline std::int64_t trained_count(const std::vector<NetworkWeight>& weights, std::string_view prefix = "") {
+    std::int64_t sum = 0;
+    for (const auto& weight : weights)
+        if (weight.trained && weight.name.starts_with(prefix)) sum += weight.count();
+    return sum;
+}
 
 /// A line of the summary that `actformer model` prints.
 struct SummaryLine {

@@ -105,7 +105,8 @@ WeightStore::WeightStore(torch::nn::Module& module, const std::vector<NetworkWei
     for (const auto& weight : weights) {
         Entry entry;
         const auto [place, name] = place_of(module, weight.name);
-        const auto values = started(weight, random).to(type).contiguous();
+        const auto values = weight.same_as.empty() ? started(weight, random).to(type).contiguous()
+                                                   : entries_.at(weight.same_as).weight.detach().clone();
         entry.weight =
             weight.trained ? place->register_parameter(name, values) : place->register_buffer(name, values);
         if (weight.spectral) {

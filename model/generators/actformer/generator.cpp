@@ -1,11 +1,12 @@
 #include "model/generators/actformer/generator.hpp"
 
 #include "base/error.hpp"
+#include "model/generators/finish.hpp"
 
 namespace actformer::model {
 namespace {
 
-constexpr double norm_epsilon = 1e-6, length_epsilon = 1e-4, leak = 0.2;
+constexpr double norm_epsilon = 1e-6, leak = 0.2;
 
 at::Tensor tensor_of(const HopMatrix& matrix, at::ScalarType type) {
     auto values = matrix.values;
@@ -16,14 +17,6 @@ at::Tensor tensor_of(const HopMatrix& matrix, at::ScalarType type) {
 GeneratorSettings checked(GeneratorSettings settings) {
     check(settings);
     return settings;
-}
-
-/// Two orthogonal unit vectors out of the six numbers along the last axis (Gram and Schmidt).
-at::Tensor orthonormal(const at::Tensor& x) {
-    const auto unit = [](const at::Tensor& v) { return v / v.norm(2, {-1}, true).clamp_min(1e-12); };
-    const auto first = unit(x.slice(-1, 0, 3));
-    const auto second = x.slice(-1, 3, 6);
-    return at::cat({first, unit(second - (first * second).sum(-1, true) * first)}, -1);
 }
 
 }  // namespace
@@ -173,19 +166,11 @@ at::Tensor Generator::poses(const at::Tensor& x) const {
     return raw.view({n, settings_.persons, t, nodes, numbers});
 }
 
-/// What the representation makes of the head's numbers (N, P, T, K, D); the free node keeps its position, and 0 behind it.
+/// What the representation makes of the head's numbers (N, P, T, K, D), bent by tanh; the free node keeps its position.
 at::Tensor Generator::finished(const at::Tensor& poses) const {
     const auto& how = settings_.representation;
     if (how.finish() == ingest::Finish::linear) return poses;
-    const auto bent = poses.tanh();
-    const auto normal = how.finish() == ingest::Finish::orthonormal
-                            ? orthonormal(bent)
-                            : bent / (bent.norm(2, {-1}, true) + length_epsilon);
-    const auto free_node = how.free_node(settings_.nodes());
-    if (!free_node) return normal;
-    const std::int64_t free = *free_node, nodes = settings_.nodes(), behind = poses.size(4) - 3;
-    const auto position = at::constant_pad_nd(poses.slice(3, free, free + 1).slice(4, 0, 3), {0, behind});
-    return at::cat({normal.slice(3, 0, free), position, normal.slice(3, free + 1, nodes)}, 3);
+    return with_position(normalised(poses.tanh(), how.finish()), poses, how);
 }
 
 at::Tensor Generator::forward(const at::Tensor& latent, const at::Tensor& labels) {

@@ -77,13 +77,6 @@ void add_head(List& list, const GeneratorSettings& s) {
                 channels.fine);  // each node its own: neighbours in the graph look alike
 }
 
-std::int64_t trained_under(const std::vector<NetworkWeight>& weights, const std::string& prefix) {
-    std::int64_t sum = 0;
-    for (const auto& weight : weights)
-        if (weight.trained && weight.name.starts_with(prefix)) sum += weight.count();
-    return sum;
-}
-
 const char* head_kind(ingest::Finish finish) {
     switch (finish) {
         case ingest::Finish::unit:
@@ -101,10 +94,6 @@ std::string layer_name(std::size_t i) {
 }
 
 }  // namespace
-
-std::int64_t trained_count(const std::vector<NetworkWeight>& weights) {
-    return trained_under(weights, "");
-}
 
 std::vector<bool> interacting_blocks(const GeneratorSettings& settings) {
     std::vector<bool> blocks;
@@ -164,7 +153,7 @@ std::vector<SummaryLine> generator_summary(const GeneratorSettings& s, std::uint
     const std::int64_t t = frames, persons = s.tokens_a_frame();
     const std::vector<std::int64_t> tokens{persons, t + 1, s.width};
     std::vector<SummaryLine> lines;
-    const auto under = [&](const std::string& name) { return trained_under(weights, name); };
+    const auto under = [&](const std::string& name) { return trained_count(weights, name); };
     lines.push_back({"prior",
                      s.prior.kind == PriorKind::gp ? "Gaussian processes" : "one normal vector",
                      {s.prior.streams, t, s.prior.channels},
@@ -201,7 +190,7 @@ std::vector<SummaryLine> generator_summary(const GeneratorSettings& s, std::uint
 
 std::vector<SummaryLine> discriminator_summary(const DiscriminatorSettings& s, std::uint32_t frames) {
     const auto weights = discriminator_weights(s);
-    const auto under = [&](const std::string& name) { return trained_under(weights, name + "."); };
+    const auto under = [&](const std::string& name) { return trained_count(weights, name + "."); };
     const auto convolutions = node_convolutions(s);
     std::vector<SummaryLine> lines;
     std::uint32_t t = frames;

@@ -40,9 +40,6 @@ std::vector<NetworkWeight> discriminator_weights(const DiscriminatorSettings& se
 /// Transformer blocks in order: true for an I-Former, false for a T-Former.
 std::vector<bool> interacting_blocks(const GeneratorSettings& settings);
 
-/// Numbers that training moves.
-std::int64_t trained_count(const std::vector<NetworkWeight>& weights);
-
 /// Lines for `actformer model`; shapes are of one motion of `frames` frames.
 std::vector<SummaryLine> generator_summary(const GeneratorSettings& settings, std::uint32_t frames);
 std::vector<SummaryLine> discriminator_summary(const DiscriminatorSettings& settings, std::uint32_t frames);

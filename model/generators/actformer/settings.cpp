@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "model/generators/generator_settings.hpp"
 
 namespace actformer::model {
 namespace {
@@ -24,16 +25,6 @@ Enum named(const Config& config, const char* key, const std::vector<std::string>
 
 std::uint32_t whole(const Config& config, const char* key) {
     return static_cast<std::uint32_t>(config.get<std::int64_t>(key));
-}
-
-void compare(const Config& config, std::uint32_t persons, std::size_t classes, const std::string& dataset) {
-    const auto wanted_persons = whole(config, "persons"), wanted_classes = whole(config, "classes");
-    if (wanted_persons != 0 && wanted_persons != persons)
-        throw Error("{}: {} person{} a clip, but the configuration says persons: {}", dataset, persons,
-                    persons == 1 ? "" : "s", wanted_persons);
-    if (wanted_classes != 0 && wanted_classes != classes)
-        throw Error("{}: {} classes, but the configuration says classes: {}", dataset, classes,
-                    wanted_classes);
 }
 
 void check_motion(const char* network, std::uint32_t nodes, std::uint32_t persons, std::uint32_t classes) {
@@ -96,7 +87,7 @@ std::vector<Key> network_keys() {
 GeneratorSettings generator_settings(const Config& config, ingest::Representation representation,
                                      const ingest::Topology& topology, std::uint32_t persons,
                                      std::size_t classes, const std::string& dataset) {
-    compare(config, persons, classes, dataset);
+    check_subjects(config, persons, classes, dataset);
     GeneratorSettings s;
     s.parents = representation.node_parents(topology);
     s.persons = persons;
@@ -121,7 +112,7 @@ GeneratorSettings generator_settings(const Config& config, ingest::Representatio
 DiscriminatorSettings discriminator_settings(const Config& config, ingest::Representation representation,
                                              const ingest::Topology& topology, std::uint32_t persons,
                                              std::size_t classes, const std::string& dataset) {
-    compare(config, persons, classes, dataset);
+    check_subjects(config, persons, classes, dataset);
     DiscriminatorSettings s;
     s.parents = representation.node_parents(topology);
     s.persons = persons;
