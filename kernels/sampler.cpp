@@ -141,7 +141,8 @@ void Sampler::draw(std::uint64_t index, Batch& into) const {
     launch(device, sampler_kernel(device, "draw"), {into.window_, into.samples_}, clips_->motion(),
            clips_->clips(), by_class_, class_first_, class_edge_, drawn_, low(options_.seed),
            high(options_.seed), low(index), high(index), options_.first_sample,
-           static_cast<std::uint32_t>(options_.permute_persons), share_of_root(table, into.window_),
+           static_cast<std::uint32_t>(options_.permute_persons),
+           static_cast<std::uint32_t>(options_.padding == Padding::hold), share_of_root(table, into.window_),
            into.samples_, into.window_, table.persons, table.nodes, table.numbers, moved.root, moved.first,
            moved.count, into.values_.memory(), into.labels_.memory(), into.picks_.memory());
     into.values_.begin_map();

@@ -91,14 +91,21 @@ enum class ClassSampling {
     plain         ///< to its clips: every clip as likely
 };
 
+/// What a window shows of a clip shorter than itself.
+enum class Padding {
+    back_and_forth,  ///< 0 1 .. n-1 n-2 .. 1 0 1 ..
+    hold             ///< the last frame again and again
+};
+
 struct SamplerOptions {
     std::uint64_t seed = 0;
     ClassSampling classes = ClassSampling::square_root;
     bool permute_persons = true;
     std::uint32_t first_sample = 0;  ///< of a batch's part: how many samples of it others draw before these
+    Padding padding = Padding::back_and_forth;
 };
 
-/// Random batches: a class, a clip of it, a window (a crop of a longer clip; a shorter one runs back and forth), the order
+/// Random batches: a class, a clip of it, a window (a crop of a longer clip; a shorter one is padded), the order
 /// of its persons. Sample j of batch i under seed s is the same on every device and for every batch size: only integers
 /// decide. Classes without clips are never drawn.
 class Sampler {

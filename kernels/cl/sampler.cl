@@ -21,21 +21,22 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-// The frame shown at `t`: `start` on, and where the clip ends before, 0 1 .. n-1 n-2 .. 1 0 1 ..
-uint shown(uint start, uint t, uint frames) {
+// The frame shown at `t`: `start` on, and where the clip ends before, 0 1 .. n-1 n-2 .. 1 0 1 .., or with `hold` n-1 n-1 ..
+uint shown(uint start, uint t, uint frames, uint hold) {
     if (start + t < frames) return start + t;
+    if (hold) return frames - 1;
     if (frames == 1) return 0;
     const uint period = 2 * (frames - 1), phase = t % period;
     return phase < frames ? phase : period - phase;
 }
 
 // The root's mean over the frames shown and all persons.
-float3 mean_root(global const float* clip, uint start, uint frames, uint window, uint persons, uint nodes,
-                 uint numbers, uint root, float share) {
+float3 mean_root(global const float* clip, uint start, uint frames, uint hold, uint window, uint persons,
+                 uint nodes, uint numbers, uint root, float share) {
     float3 sum = 0;
     for (uint t = 0; share > 0 && t < window; ++t) {
         global const float* at =
-            clip + (size_t)shown(start, t, frames) * persons * nodes * numbers + root * numbers;
+            clip + (size_t)shown(start, t, frames, hold) * persons * nodes * numbers + root * numbers;
         for (uint p = 0; p < persons; ++p, at += nodes * numbers) sum += vload3(0, at);
     }
     return sum * share;
@@ -88,7 +89,7 @@ uint find_class(global const ulong* class_edge, uint drawn, ulong at) {
 // One work-item a (frame, sample): each draws its sample's choices anew, which is cheaper than a second launch.
 kernel void draw(global const float* motion, global const uint4* clip, global const uint* by_class,
                  global const uint* class_first, global const ulong* class_edge, uint drawn, uint seed_low,
-                 uint seed_high, uint batch_low, uint batch_high, uint first_sample, uint permute,
+                 uint seed_high, uint batch_low, uint batch_high, uint first_sample, uint permute, uint hold,
                  float share, uint samples, uint window, uint persons, uint nodes, uint numbers, uint root,
                  uint first_moved, uint moved, global float* values, global uint* labels,
                  global uint2* picks) {
@@ -108,8 +109,8 @@ kernel void draw(global const float* motion, global const uint4* clip, global co
 
     const size_t row = (size_t)persons * nodes * numbers;
     global const float* from = motion + clip[c].x * row;
-    const float3 centre = mean_root(from, start, frames, window, persons, nodes, numbers, root, share);
-    copy_frame(from + shown(start, t, frames) * row, values + sample * row * window, t, order, centre,
+    const float3 centre = mean_root(from, start, frames, hold, window, persons, nodes, numbers, root, share);
+    copy_frame(from + shown(start, t, frames, hold) * row, values + sample * row * window, t, order, centre,
                first_moved, moved, window, persons, nodes, numbers);
     if (t == 0) {
         labels[sample] = clip[c].z;
@@ -128,8 +129,8 @@ kernel void cut(global const float* motion, global const uint4* clip, global con
     const uint4 c = clip[pick.x];
     const size_t row = (size_t)persons * nodes * numbers;
     global const float* from = motion + c.x * row;
-    const float3 centre = mean_root(from, pick.y, c.y, window, persons, nodes, numbers, root, share);
-    copy_frame(from + shown(pick.y, t, c.y) * row, values + sample * row * window, t, 0xFEDCBA9876543210UL,
+    const float3 centre = mean_root(from, pick.y, c.y, 0, window, persons, nodes, numbers, root, share);
+    copy_frame(from + shown(pick.y, t, c.y, 0) * row, values + sample * row * window, t, 0xFEDCBA9876543210UL,
                centre, first_moved, moved, window, persons, nodes, numbers);
     if (t == 0) {
         labels[sample] = c.z;

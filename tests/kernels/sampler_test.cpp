@@ -90,9 +90,12 @@ TEST(Philox, GivesThePublishedVectors) {
                                                           0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
-TEST(Sampler, ShowsWholeWindowsOfTheClipItNames) {
+namespace {
+
+/// Every window of a batch, beside its clip; shorter clips show frame padded(t, frames) at t.
+void expect_windows_of_clips(Padding padding, std::uint32_t (*padded)(std::uint32_t, std::uint32_t)) {
     Marked m(2, {1, 2, 7, 59, 60, 61, 150}, {0, 1, 2, 3, 4, 5, 6});
-    const Sampler sampler(m.store, {.seed = 3});
+    const Sampler sampler(m.store, {.seed = 3, .padding = padding});
     Batch batch(m.store, 200, 60);
     sampler.draw(0, batch);
     const auto view = batch.map();
@@ -110,7 +113,7 @@ TEST(Sampler, ShowsWholeWindowsOfTheClipItNames) {
             for (std::size_t d = 0; d < 3; ++d)
                 for (std::uint32_t t = 0; t < 60; ++t)
                     for (std::size_t k = 0; k < 4; ++k) {
-                        const auto at = frames > 60 ? start + t : back_and_forth(t, frames);
+                        const auto at = frames > 60 ? start + t : padded(t, frames);
                         ASSERT_EQ(sample[((p * 3 + d) * 60 + t) * 4 + k],
                                   mark(clip, at, swapped ? 1 - p : p, k, d))
                             << "clip " << clip << " frame " << t;
@@ -118,6 +121,17 @@ TEST(Sampler, ShowsWholeWindowsOfTheClipItNames) {
     }
     EXPECT_EQ(clips.size(), 7U);
     EXPECT_GT(starts_of_longest.size(), 10U);
+}
+
+}  // namespace
+
+TEST(Sampler, ShowsWholeWindowsOfTheClipItNames) {
+    expect_windows_of_clips(Padding::back_and_forth, back_and_forth);
+}
+
+TEST(Sampler, HoldsTheLastFrameOfShorterClipsWhereAsked) {
+    expect_windows_of_clips(Padding::hold,
+                            [](std::uint32_t t, std::uint32_t n) { return std::min(t, n - 1); });
 }
 
 TEST(Sampler, DrawsClassesByTheSquareRootOfTheirClips) {
