@@ -1,4 +1,4 @@
-// Adam, as PyTorch does it, over parameters that lie end to end. Includes torch headers.
+// Adam and AdamW, as PyTorch does them, over parameters that lie end to end. Includes torch headers.
 #pragma once
 
 #include "model/nn/adam_settings.hpp"
@@ -22,8 +22,13 @@ class Adam {
     std::uint64_t steps = 0;  ///< taken so far
 
   private:
-    void step_here(double rate, double root);
-    void step_in_operators(double rate, double root);
+    /// What a step comes to behind `steps` of them.
+    struct Scales {
+        double rate, root;  ///< corrected for means that began at 0
+        double keep;        ///< of every weight: 1 without weight decay
+    };
+    void step_here(const Scales& scales);
+    void step_in_operators(const Scales& scales);
 
     FlatParameters* parameters_;
     AdamSettings settings_;

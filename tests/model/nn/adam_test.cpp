@@ -41,10 +41,13 @@ TEST(FlatParameters, StayTheTensorsTheyWere) {
 }
 
 TEST(Adam, FollowsItsFormula) {
-    for (const double beta1 : {0.0, 0.9}) {
+    struct Case {
+        double beta1, decay;
+    };
+    for (const auto [beta1, decay] : {Case{0.0, 0}, Case{0.9, 0}, Case{0.9, 0.5}}) {
         auto p = parameters();
         FlatParameters flat(p);
-        const AdamSettings settings{0.01, beta1, 0.99, 1e-8};
+        const AdamSettings settings{0.01, beta1, 0.99, 1e-8, decay};
         Adam adam(flat, settings);
         std::vector<double> value, mean(26, 0.0), square(26, 0.0);
         for (const auto& t : p)
@@ -65,6 +68,7 @@ TEST(Adam, FollowsItsFormula) {
                     square[at] = 0.99 * square[at] + 0.01 * gradient[at] * gradient[at];
                     const double m = mean[at] / (1 - std::pow(beta1, step)),
                                  v = square[at] / (1 - std::pow(0.99, step));
+                    value[at] *= 1 - share * 0.01 * decay;
                     value[at] -= share * 0.01 * m / (std::sqrt(v) + 1e-8);
                     // float32 against double over a few steps of about 0.01
                     EXPECT_NEAR(t.detach().flatten()[i].item<double>(), value[at], 2e-6)
