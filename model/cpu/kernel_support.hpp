@@ -108,7 +108,7 @@ template <typename T>
 struct RowStatistics {
     T mean, inverse;
 
-    RowStatistics(const T* x, std::int64_t width) {
+    RowStatistics(const T* x, std::int64_t width, double epsilon = layer_norm_epsilon) {
         T sum = 0, squares = 0;
 #pragma omp simd reduction(+ : sum)
         for (std::int64_t c = 0; c < width; ++c) sum += x[c];
@@ -116,13 +116,14 @@ struct RowStatistics {
         const T m = mean;
 #pragma omp simd reduction(+ : squares)
         for (std::int64_t c = 0; c < width; ++c) squares += (x[c] - m) * (x[c] - m);
-        inverse = 1 / std::sqrt(squares / static_cast<T>(width) + static_cast<T>(layer_norm_epsilon));
+        inverse = 1 / std::sqrt(squares / static_cast<T>(width) + static_cast<T>(epsilon));
     }
 };
 
 template <typename T>
-inline void normalise_row(const T* x, std::int64_t width, const T* weight, const T* bias, T* to) {
-    const RowStatistics<T> row(x, width);
+inline void normalise_row(const T* x, std::int64_t width, const T* weight, const T* bias, T* to,
+                          double epsilon = layer_norm_epsilon) {
+    const RowStatistics<T> row(x, width, epsilon);
     const T mean = row.mean, inverse = row.inverse;
 #pragma omp simd
     for (std::int64_t c = 0; c < width; ++c) to[c] = (x[c] - mean) * inverse * weight[c] + bias[c];
@@ -131,8 +132,9 @@ inline void normalise_row(const T* x, std::int64_t width, const T* weight, const
 /// to = onto + the gradient to x of a normalised row whose gradient is `grad`; `onto` may be null, or `to`.
 template <typename T>
 inline void normalise_row_backward(const T* x, const T* grad, std::int64_t width, const T* weight,
-                                   const T* onto, T* to, T* grad_weight, T* grad_bias) {
-    const RowStatistics<T> row(x, width);
+                                   const T* onto, T* to, T* grad_weight, T* grad_bias,
+                                   double epsilon = layer_norm_epsilon) {
+    const RowStatistics<T> row(x, width, epsilon);
     const T mean = row.mean, inverse = row.inverse;
     T sum = 0, along = 0;
 #pragma omp simd reduction(+ : sum, along)

@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/random/splitmix.hpp"
 #include "model/cpu/vector_math.hpp"
@@ -63,7 +64,42 @@ void make_normals(PhiloxKey key, std::uint64_t sample, std::uint32_t first_block
         }
 }
 
+/// Bit i: whether 16 bits of word i, from bit `shift` on, are at least `threshold`.
+std::uint16_t at_least(const std::uint32_t (&words)[together], int shift, std::uint32_t threshold) {
+#if defined(__AVX512F__)
+    const auto shifted = _mm512_maskz_srlv_epi32(0xFFFF, _mm512_loadu_si512(words), _mm512_set1_epi32(shift));
+    const auto halves = _mm512_and_epi32(shifted, _mm512_set1_epi32(0xFFFF));
+    return _mm512_cmpge_epu32_mask(halves, _mm512_set1_epi32(static_cast<int>(threshold)));
+#else
+    std::uint32_t bits = 0;
+    for (int i = 0; i < together; ++i)
+        bits |= static_cast<std::uint32_t>((words[i] >> shift & 0xFFFF) >= threshold) << i;
+    return static_cast<std::uint16_t>(bits);
+#endif
+}
+
 }  // namespace
+
+std::uint32_t Dropout::threshold() const {
+    return static_cast<std::uint32_t>(std::lround(rate * 0x1p16));
+}
+
+double Dropout::scale() const {
+    return 1 / (1 - threshold() * 0x1p-16);
+}
+
+void draw_kept(const Dropout& dropout, std::int64_t sample, std::int64_t words, std::uint16_t* kept) {
+    const auto key = key_of(dropout.place);
+    const auto number = dropout.first_sample + static_cast<std::uint64_t>(sample);
+    const auto threshold = dropout.threshold();
+    constexpr std::int64_t words_together = 8;
+    for (std::int64_t i = 0; i < words; i += words_together) {
+        std::uint32_t random[4][together];
+        make_words(key, number, static_cast<std::uint32_t>(i / words_together) * together, random);
+        for (std::int64_t w = i; w < std::min(i + words_together, words); ++w)
+            kept[w] = at_least(random[(w - i) / 2], (w - i) % 2 == 0 ? 0 : 16, threshold);
+    }
+}
 
 PhiloxWords random_words(const RandomPlace& place, std::uint64_t sample, std::uint32_t block) {
     return philox({block, static_cast<std::uint32_t>(sample), static_cast<std::uint32_t>(sample >> 32), 0},

@@ -26,6 +26,27 @@ void normal_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t 
 void whole_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t samples, std::uint32_t bound,
                    std::int64_t* values);
 
+/// Dropout (Srivastava et al. 2014) of a layer's numbers: a share `rate` becomes 0, the others grow so that the mean stays.
+struct Dropout {
+    double rate = 0;  ///< in steps of 2^-16
+    RandomPlace place = {};
+    std::uint64_t first_sample = 0;  ///< of a batch's part: how many samples of it others draw before these
+
+    bool drops() const { return rate > 0; }
+    std::uint32_t threshold() const;  ///< of 16 bits, below which a number is dropped
+    double scale() const;             ///< of those that stay
+};
+
+/// Numbers are told of by bits, 16 a word, the first the lowest; a row of them begins with a word.
+constexpr std::int64_t numbers_a_word = 16;
+
+inline std::int64_t words_for(std::int64_t columns) {
+    return (columns + numbers_a_word - 1) / numbers_a_word;
+}
+
+/// The bits of `words` words of the batch's sample `sample`: set for what stays.
+void draw_kept(const Dropout& dropout, std::int64_t sample, std::int64_t words, std::uint16_t* kept);
+
 /// Every channel's numbers over the frames times its triangular factor: to (draws, frames, channels) at (n, t, c) = the sum
 /// over s <= t of factors (frames, frames, channels) at (t, s, c) times normals (draws, frames, channels) at (n, s, c).
 void correlate(const float* normals, const float* factors, std::int64_t draws, std::int64_t frames,

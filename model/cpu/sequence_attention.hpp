@@ -1,6 +1,7 @@
 // Attention over one sequence at a time: long ones as matrix products, short ones in plain loops.
 #pragma once
 
+#include "model/cpu/dropped_rows.hpp"
 #include "model/cpu/kernel_support.hpp"
 #include "model/cpu/transformer_kernels.hpp"
 #include "model/cpu/vector_math.hpp"
@@ -10,6 +11,7 @@ namespace actformer::model::cpu {
 /// What scratch memory is for.
 namespace sequence_memory {
 struct ScoreRows {};
+struct KeptScores {};
 struct ScoreGrad {};
 struct ValueGrad {};
 struct OuterPanel {};
@@ -42,20 +44,24 @@ class LongAttention {
           room_(padded<T>(length_)),
           scale_(1 / std::sqrt(static_cast<T>(head_))) {}
 
-    void forward(Sequence<const T> qkv, Sequence<T> seen) const {
+    /// `kept` holds the bits of the weights that dropout leaves, (heads, length keys, length queries).
+    void forward(Sequence<const T> qkv, Sequence<T> seen, const KeptRows<T>& kept = {}) const {
         T* scores = scratch<T>(sequence_memory::ScoreRows{}, length_ * room_);
         T* panel = scratch<T>(sequence_memory::OuterPanel{}, length_ * panel_columns<T>);
         pack_all(packed_scratch<T>(sequence_memory::PackedQkv{}), qkv);
         for (std::int64_t h = 0; h < heads_; ++h) {
             const auto at = h * head_;
             weigh(qkv, h, scores);
+            if (kept) keep(kept, h, scores, scores);
             over_keys(scores, {qkv.first + 2 * width_ + at, qkv.step}, panel, {seen.first + at, seen.step});
         }
     }
 
     /// `grad` is of what was seen; `to` takes the gradients of queries, keys and values.
-    void backward(Sequence<const T> qkv, Sequence<const T> grad, Sequence<T> to) const {
+    void backward(Sequence<const T> qkv, Sequence<const T> grad, Sequence<T> to,
+                  const KeptRows<T>& kept = {}) const {
         T* scores = scratch<T>(sequence_memory::ScoreRows{}, length_ * room_);
+        T* left = kept ? scratch<T>(sequence_memory::KeptScores{}, length_ * room_) : scores;
         T* slopes = scratch<T>(sequence_memory::ScoreGrad{}, length_ * room_);
         T* panel = scratch<T>(sequence_memory::OuterPanel{}, length_ * panel_columns<T>);
         pack_all(packed_scratch<T>(sequence_memory::PackedQkv{}), qkv);
@@ -65,8 +71,10 @@ class LongAttention {
             const Sequence<const T> queries{qkv.first + at, qkv.step}, keys{queries.first + width_, qkv.step},
                 values{keys.first + width_, qkv.step};
             weigh(qkv, h, scores);
-            over_queries(scores, {grad.first + at, grad.step}, {to.first + 2 * width_ + at, to.step});
+            if (kept) keep(kept, h, scores, left);
+            over_queries(left, {grad.first + at, grad.step}, {to.first + 2 * width_ + at, to.step});
             times_all(packed_scratch<T>(sequence_memory::PackedGrad{}), values, h, slopes);
+            if (kept) keep(kept, h, slopes, slopes);
             through_softmax(scores, slopes);
             over_keys(slopes, keys, panel, {to.first + at, to.step});
             over_queries(slopes, queries, {to.first + width_ + at, to.step});
@@ -74,6 +82,13 @@ class LongAttention {
     }
 
   private:
+    /// A head's numbers (length keys, room) where the bits say so, else 0.
+    void keep(const KeptRows<T>& kept, std::int64_t h, const T* from, T* to) const {
+        for (std::int64_t j = 0; j < length_; ++j)
+            for (std::int64_t i = 0; i < room_; i += lanes<T>)
+                store(to + j * room_ + i, kept.of(load(from + j * room_ + i), h * length_ + j, i));
+    }
+
     /// All heads' numbers of the tokens as columns, (width, length): a head's are `head_` rows of every panel.
     void pack_all(PackedMatrix<T>& to, Sequence<const T> tokens) const {
         to.resize(width_, length_);

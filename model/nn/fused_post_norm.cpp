@@ -1,0 +1,246 @@
+#include "model/nn/fused_post_norm.hpp"
+
+#include <torch/csrc/autograd/custom_function.h>
+
+#include "model/cpu/post_norm_kernels.hpp"
+#include "model/nn/function_support.hpp"
+
+namespace actformer::model {
+namespace {
+
+using torch::autograd::AutogradContext;
+using torch::autograd::Function;
+using torch::autograd::variable_list;
+
+/// What a half is told beside tensors.
+struct Half : torch::CustomClassHolder {
+    std::int64_t heads;
+    double epsilon;
+    BranchDropout dropout;
+
+    Half(std::int64_t of_heads, double of_epsilon, const BranchDropout& of_dropout)
+        : heads(of_heads), epsilon(of_epsilon), dropout(of_dropout) {}
+};
+using HalfPointer = c10::intrusive_ptr<Half>;
+
+const Half& half_of(AutogradContext* context) {
+    return static_cast<const Half&>(*context->saved_data["half"].toCapsule());
+}
+
+cpu::TokenShape token_shape(const at::Tensor& x) {
+    return {x.size(0), 1, x.size(1), x.size(2)};
+}
+
+cpu::AttentionShape attention_shape(const at::Tensor& x, const Half& half) {
+    return {token_shape(x), half.heads, false};
+}
+
+/// Two linear maps and the norm behind, as Functions save them behind x.
+template <typename T>
+cpu::AttentionNormWeights<T> attention_weights(const at::Tensor* w, const Half& half) {
+    return {linear_of<T>(w[0], w[1]),
+            linear_of<T>(w[2], w[3]),
+            {norm_of<T>(w[4], w[5]), half.epsilon, half.dropout.branch},
+            half.dropout.within};
+}
+
+template <typename T>
+cpu::MlpNormWeights<T> mlp_weights(const at::Tensor* w, const Half& half) {
+    return {linear_of<T>(w[0], w[1]),
+            linear_of<T>(w[2], w[3]),
+            {norm_of<T>(w[4], w[5]), half.epsilon, half.dropout.branch},
+            half.dropout.within};
+}
+
+/// parts, bias, norm.
+template <typename T>
+cpu::SumNormWeights<T> sum_weights(const at::Tensor* w, const Half& half) {
+    return {in<T>(w[0]),
+            in<T>(w[1]),
+            {norm_of<T>(w[2], w[3]), half.epsilon, half.dropout.branch},
+            half.dropout.within};
+}
+
+constexpr const char *attention_name = "attention", *mlp_name = "MLP", *sum_name = "attention to one token";
+
+struct AttentionNorm : Function<AttentionNorm> {
+    static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& qkv,
+                              const at::Tensor& qkv_bias, const at::Tensor& proj, const at::Tensor& proj_bias,
+                              const at::Tensor& norm, const at::Tensor& norm_bias, const HalfPointer& half) {
+        const auto shape = attention_shape(x, *half);
+        auto kept_qkv = at::empty({shape.tokens.rows(), shape.qkv_pitch()}, x.options()),
+             kept_seen = at::empty({shape.tokens.rows(), shape.seen_pitch()}, x.options()),
+             sum = at::empty_like(x), y = at::empty_like(x);
+        const at::Tensor weights[] = {qkv, qkv_bias, proj, proj_bias, norm, norm_bias};
+        timed(attention_name, false, x, [&](auto number) {
+            using T = decltype(number);
+            cpu::attention_norm_forward<T>(shape, in<T>(x), attention_weights<T>(weights, *half),
+                                           {in<T>(kept_qkv), in<T>(kept_seen), in<T>(sum)}, in<T>(y),
+                                           threads());
+        });
+        context->save_for_backward(
+            {x, qkv, qkv_bias, proj, proj_bias, norm, norm_bias, kept_qkv, kept_seen, sum});
+        context->saved_data["half"] = c10::IValue::make_capsule(half);
+        return y;
+    }
+
+    static variable_list backward(AutogradContext* context, variable_list grads) {
+        const auto saved = context->get_saved_variables();
+        const auto& x = saved[0];
+        const auto& half = half_of(context);
+        const auto grad = grads[0].contiguous();
+        auto to_x = at::empty_like(x);
+        const Gradients qkv(saved[1], saved[2]), proj(saved[3], saved[4]), norm(saved[5], saved[6]);
+        timed(attention_name, true, x, [&](auto number) {
+            using T = decltype(number);
+            cpu::attention_norm_backward<T>(
+                attention_shape(x, half), in<T>(x), attention_weights<T>(&saved[1], half),
+                {in<T>(saved[7]), in<T>(saved[8]), in<T>(saved[9])}, in<T>(grad),
+                {in<T>(to_x), norm.to<T>(), qkv.to<T>(), proj.to<T>()}, threads());
+        });
+        return {to_x, qkv.weight, qkv.bias, proj.weight, proj.bias, norm.weight, norm.bias, {}};
+    }
+};
+
+struct MlpNorm : Function<MlpNorm> {
+    static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& up,
+                              const at::Tensor& up_bias, const at::Tensor& down, const at::Tensor& down_bias,
+                              const at::Tensor& norm, const at::Tensor& norm_bias, const HalfPointer& half) {
+        const cpu::MlpShape shape{token_shape(x), up.size(0)};
+        auto kept_up = at::empty({shape.tokens.rows(), shape.hidden_pitch()}, x.options()),
+             sum = at::empty_like(x), y = at::empty_like(x);
+        const at::Tensor weights[] = {up, up_bias, down, down_bias, norm, norm_bias};
+        timed(mlp_name, false, x, [&](auto number) {
+            using T = decltype(number);
+            cpu::mlp_norm_forward<T>(shape, in<T>(x), mlp_weights<T>(weights, *half),
+                                     {in<T>(kept_up), in<T>(sum)}, in<T>(y), threads());
+        });
+        context->save_for_backward({x, up, up_bias, down, down_bias, norm, norm_bias, kept_up, sum});
+        context->saved_data["half"] = c10::IValue::make_capsule(half);
+        return y;
+    }
+
+    static variable_list backward(AutogradContext* context, variable_list grads) {
+        const auto saved = context->get_saved_variables();
+        const auto& x = saved[0];
+        const auto& half = half_of(context);
+        const auto grad = grads[0].contiguous();
+        auto to_x = at::empty_like(x);
+        const Gradients up(saved[1], saved[2]), down(saved[3], saved[4]), norm(saved[5], saved[6]);
+        timed(mlp_name, true, x, [&](auto number) {
+            using T = decltype(number);
+            cpu::mlp_norm_backward<T>({token_shape(x), saved[1].size(0)}, in<T>(x),
+                                      mlp_weights<T>(&saved[1], half), {in<T>(saved[7]), in<T>(saved[8])},
+                                      in<T>(grad), {in<T>(to_x), norm.to<T>(), up.to<T>(), down.to<T>()},
+                                      threads());
+        });
+        return {to_x, up.weight, up.bias, down.weight, down.bias, norm.weight, norm.bias, {}};
+    }
+};
+
+struct SumNorm : Function<SumNorm> {
+    static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& parts,
+                              const at::Tensor& bias, const at::Tensor& norm, const at::Tensor& norm_bias,
+                              const HalfPointer& half) {
+        auto sum = at::empty_like(x), y = at::empty_like(x);
+        const at::Tensor weights[] = {parts, bias, norm, norm_bias};
+        timed(sum_name, false, x, [&](auto number) {
+            using T = decltype(number);
+            cpu::sum_norm_forward<T>({token_shape(x), parts.size(1)}, in<T>(x),
+                                     sum_weights<T>(weights, *half), in<T>(sum), in<T>(y), threads());
+        });
+        context->save_for_backward({parts, bias, norm, norm_bias, sum});
+        context->saved_data["half"] = c10::IValue::make_capsule(half);
+        return y;
+    }
+
+    static variable_list backward(AutogradContext* context, variable_list grads) {
+        const auto saved = context->get_saved_variables();
+        const auto &parts = saved[0], &bias = saved[1], &sum = saved[4];
+        const auto grad = grads[0].contiguous();
+        auto to_x = at::empty_like(sum), to_parts = at::empty_like(parts), to_bias = at::empty_like(bias);
+        const Gradients norm(saved[2], saved[3]);
+        timed(sum_name, true, sum, [&](auto number) {
+            using T = decltype(number);
+            cpu::sum_norm_backward<T>(
+                {token_shape(sum), parts.size(1)}, sum_weights<T>(&saved[0], half_of(context)), in<T>(sum),
+                in<T>(grad), {in<T>(to_x), in<T>(to_parts), in<T>(to_bias), norm.to<T>()}, threads());
+        });
+        return {to_x, to_parts, to_bias, norm.weight, norm.bias, {}};
+    }
+};
+
+HalfPointer half(std::int64_t heads, const PostNormTensors& post, const BranchDropout& dropout) {
+    return c10::make_intrusive<Half>(heads, post.epsilon, dropout);
+}
+
+}  // namespace
+
+at::Tensor fused_attention_norm(const at::Tensor& x, const LinearTensors& qkv, const LinearTensors& proj,
+                                const PostNormTensors& post, std::int64_t heads,
+                                const BranchDropout& dropout) {
+    const auto how = half(heads, post, dropout);
+    if (keeps())
+        return AttentionNorm::apply(x, qkv.weight, qkv.bias, proj.weight, proj.bias, post.norm.weight,
+                                    post.norm.bias, how);
+    auto y = at::empty_like(x);
+    const at::Tensor weights[] = {qkv.weight, qkv.bias,         proj.weight,
+                                  proj.bias,  post.norm.weight, post.norm.bias};
+    timed(attention_name, false, x, [&](auto number) {
+        using T = decltype(number);
+        cpu::attention_norm_forward<T>(attention_shape(x, *how), in<T>(x),
+                                       attention_weights<T>(weights, *how), {nullptr, nullptr, nullptr},
+                                       in<T>(y), threads());
+    });
+    return y;
+}
+
+at::Tensor fused_mlp_norm(const at::Tensor& x, const LinearTensors& up, const LinearTensors& down,
+                          const PostNormTensors& post, const BranchDropout& dropout) {
+    const auto how = half(0, post, dropout);
+    if (keeps())
+        return MlpNorm::apply(x, up.weight, up.bias, down.weight, down.bias, post.norm.weight, post.norm.bias,
+                              how);
+    auto y = at::empty_like(x);
+    const at::Tensor weights[] = {up.weight, up.bias,          down.weight,
+                                  down.bias, post.norm.weight, post.norm.bias};
+    timed(mlp_name, false, x, [&](auto number) {
+        using T = decltype(number);
+        cpu::mlp_norm_forward<T>({token_shape(x), up.weight.size(0)}, in<T>(x), mlp_weights<T>(weights, *how),
+                                 {nullptr, nullptr}, in<T>(y), threads());
+    });
+    return y;
+}
+
+at::Tensor fused_sum_norm(const at::Tensor& x, const at::Tensor& parts, const at::Tensor& bias,
+                          const PostNormTensors& post, const BranchDropout& dropout) {
+    const auto how = half(0, post, dropout);
+    if (keeps()) return SumNorm::apply(x, parts, bias, post.norm.weight, post.norm.bias, how);
+    auto y = at::empty_like(x);
+    const at::Tensor weights[] = {parts, bias, post.norm.weight, post.norm.bias};
+    timed(sum_name, false, x, [&](auto number) {
+        using T = decltype(number);
+        cpu::sum_norm_forward<T>({token_shape(x), parts.size(1)}, in<T>(x), sum_weights<T>(weights, *how),
+                                 nullptr, in<T>(y), threads());
+    });
+    return y;
+}
+
+at::Tensor kept_numbers(const at::Tensor& x, const cpu::Dropout& dropout) {
+    const auto samples = x.size(0), columns = x.size(-1), rows = x.numel() / (samples * columns),
+               words = cpu::words_for(columns);
+    auto kept = at::empty({samples, rows, columns}, at::kFloat);
+    std::vector<std::uint16_t> bits(static_cast<std::size_t>(rows * words));
+    auto* to = kept.data_ptr<float>();
+    for (std::int64_t n = 0; n < samples; ++n) {
+        cpu::draw_kept(dropout, n, rows * words, bits.data());
+        for (std::int64_t r = 0; r < rows; ++r)
+            for (std::int64_t c = 0; c < columns; ++c) {
+                const auto word = bits[static_cast<std::size_t>(r * words + c / cpu::numbers_a_word)];
+                *to++ = static_cast<float>(word >> (c % cpu::numbers_a_word) & 1);
+            }
+    }
+    return kept.view(x.sizes()).to(x.scalar_type()) * dropout.scale();
+}
+
+}  // namespace actformer::model
