@@ -5,6 +5,7 @@
 #include "base/text/printable.hpp"
 #include "model/generators/actformer/method.hpp"
 #include "model/generators/action2motion/method.hpp"
+#include "model/generators/actor/method.hpp"
 #include "model/generators/generator_settings.hpp"
 #include "model/generators/method.hpp"
 #include "model/train/learner.hpp"
@@ -15,6 +16,7 @@ const std::vector<Method>& methods() {
     static const std::vector<Method> all{
         actformer_method(),
         action2motion::method(),
+        actor_method(),
     };
     return all;
 }
@@ -62,6 +64,7 @@ MotionSpec spec_of(const ingest::Subjects& subjects, const std::string& where) {
     spec.classes = static_cast<std::uint32_t>(subjects.classes.size());
     spec.where = where;
     spec.bone_length = subjects.bone_length;
+    spec.rest = subjects.rest;
     return spec;
 }
 

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "base/error.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "model/generators/generator_file.hpp"
 #include "model/generators/train_generator.hpp"
+#include "tests/support/checkpoints.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/toy_dataset.hpp"
@@ -26,6 +28,12 @@ struct EveryMethod : testing::TestWithParam<std::string> {
              {"frames=16", "batch=4", "epochs=1", "threads=1", "seed=3", "train_split=s/train"})
             config.override_with(key);
         config.override_with("data=" + toy().string());
+        for (const auto& [key, value] :
+             std::map<std::string, std::string>{{"width", "32"},
+                                                {"hidden", "48"},
+                                                {"layers", "2"},
+                                                {"average", "0.9"}})  // where it has them
+            if (config.has(key)) config.override_with(key + "=" + value);
         return config;
     }
     TempDir dir;
@@ -52,7 +60,7 @@ TEST_P(EveryMethod, TrainsAndGeneratesOutOfItsFileAlone) {
     EXPECT_EQ(file.method().name, GetParam());
     EXPECT_EQ(file.subjects, ingest::subjects_of(ingest::Dataset(toy())));
     const auto maker = file.maker("cpu");
-    EXPECT_EQ(maker->most_frames(), 16U);
+    EXPECT_GE(maker->most_frames(), 16U);
     const auto motions = maker->make(7, 1, 0, 12);
     ASSERT_EQ(motions.size(), maker->batch() * 3U * 12U * file.subjects.topology.joints());
     EXPECT_TRUE(std::ranges::all_of(motions, [](float v) { return std::isfinite(v); }));
@@ -60,6 +68,20 @@ TEST_P(EveryMethod, TrainsAndGeneratesOutOfItsFileAlone) {
     EXPECT_NE(motions, maker->make(8, 1, 0, 12));
     EXPECT_EQ(motions, maker->make(7, 1, 0, 12));
     EXPECT_EQ(motions, file.maker("cpu")->make(7, 1, 0, 12));
+}
+
+TEST_P(EveryMethod, GoesOnToTheBitsOfAnUndisturbedTraining) {
+    const auto train = [&](const char* run, const char* epochs) {
+        auto config = this->config();
+        config.override_with(epochs);
+        train_generator(config, dir / run, false, {});
+    };
+    train("whole", "epochs=2");
+    train("parts", "epochs=1");
+    train("parts", "epochs=2");
+    const auto last = newest(dir / "whole");
+    ASSERT_EQ(newest(dir / "parts"), last);
+    expect_same_checkpoint(dir / "whole" / last, dir / "parts" / last);
 }
 
 TEST_P(EveryMethod, SaysWhatItsNetworksAre) {
