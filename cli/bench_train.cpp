@@ -12,6 +12,7 @@
 #include "base/process/peer.hpp"
 #include "cli/bench.hpp"
 #include "model/generators/actformer/speed.hpp"
+#include "model/generators/method_speed.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -21,7 +22,8 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
     model::SpeedRequest request{2, 26, 60, 64, 2};
-    std::string peers, python = "/usr/bin/python3";
+    std::string peers, python = "/usr/bin/python3", method, program;
+    std::vector<std::string> overrides;
     int rounds = 3;
     bool json = false;
 };
@@ -120,12 +122,68 @@ void run(const Options& options) {
     options.json ? print_json(result, options) : print_text(result, options);
 }
 
+/// Seconds of a step by the clock and of processors, and both of 100 motions.
+using MethodTimes = std::array<double, 4>;
+
+std::optional<MethodTimes> ask_method_peer(const Options& options) {
+    if (options.program.empty()) return {};
+    const auto& r = options.request;
+    const auto line = fmt::format(
+        "OMP_NUM_THREADS={} '{}' '{}' '{}' --persons {} --classes {} --frames {} --batch {} --rounds {}",
+        r.threads, options.python, options.program, options.peers, r.persons, r.classes, r.frames, r.batch,
+        options.rounds);
+    const auto said = output_of(line);
+    MethodTimes times{};
+    if (!said ||
+        std::sscanf(said->c_str(), "%lf %lf %lf %lf", &times[0], &times[1], &times[2], &times[3]) != 4)
+        throw Error("{} failed", line);
+    return times;
+}
+
+void print_method(const Options& options, const MethodTimes& ours, const std::optional<MethodTimes>& peer,
+                  const std::string& machine) {
+    constexpr std::array<const char*, 4> rows{"step", "step, processors", "100 motions",
+                                              "100 motions, processors"};
+    if (options.json) {
+        Json out{{"machine", machine}, {"method", options.method}, {"threads", options.request.threads}};
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            out[rows[i]] = {{"seconds", ours[i]}};
+            if (peer) out[rows[i]].update({{"pytorch", (*peer)[i]}, {"ratio", (*peer)[i] / ours[i]}});
+        }
+        return fmt::print("{}\n", out.dump(2));
+    }
+    fmt::print("{}\n{:<24} {:>10} {:>15} {:>7}\n", machine, "seconds, " + options.method, "actformer",
+               "PyTorch, eager", "ratio");
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (peer)
+            fmt::print("{:<24} {:>10.3f} {:>15.3f} {:>7.2f}\n", rows[i], ours[i], (*peer)[i],
+                       (*peer)[i] / ours[i]);
+        else
+            fmt::print("{:<24} {:>10.3f} {:>15}\n", rows[i], ours[i], "not measured");
+}
+
+/// Any method, through what all of them have: a step of training, and motions.
+void run_method(const Options& options) {
+    const auto& r = options.request;
+    model::MethodSpeed test(
+        {options.method, options.overrides, r.persons, r.classes, r.frames, r.batch, r.threads});
+    std::optional<MethodTimes> peer;
+    for (int turn = 0; turn < (options.program.empty() ? 1 : 2); ++turn) {
+        test.run(options.rounds);
+        const auto now = ask_method_peer(options);
+        if (!peer) peer = now;
+        for (std::size_t i = 0; now && i < now->size(); ++i) (*peer)[i] = std::min((*peer)[i], (*now)[i]);
+    }
+    const auto &step = test.step(), &generation = test.generation();
+    print_method(options, {step.wall, step.processors, generation.wall, generation.processors}, peer,
+                 test.machine());
+}
+
 }  // namespace
 
 void add_bench_train(CLI::App& bench) {
     auto options = std::make_shared<Options>();
-    auto* command =
-        bench.add_subcommand("train", "ActFormer's training and generation, beside eager PyTorch");
+    auto* command = bench.add_subcommand("train", "Training and generation, beside eager PyTorch");
     const auto number = [&](const char* name, std::uint32_t& to, const char* what, std::uint32_t least,
                             std::uint32_t most) {
         command->add_option(name, to, what)->check(CLI::Range(least, most))->capture_default_str();
@@ -142,11 +200,21 @@ void add_bench_train(CLI::App& bench) {
         ->capture_default_str();
     command->add_option("--peers", options->peers, "Folder of the reference program actformer_speed.py");
     command->add_option("--python", options->python, "Python that has torch")->capture_default_str();
+    command->add_option("--method", options->method,
+                        "A method's whole step and generation; without, ActFormer's networks layer by layer");
+    command
+        ->add_option("--peer", options->program,
+                     "Program that times the method in eager PyTorch, given --peers")
+        ->needs("--method")
+        ->check(CLI::ExistingFile);
+    command->add_option("key=value", options->overrides, "The method's settings")->needs("--method");
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer bench train\n"
-             "  actformer bench train --peers ../shared/reference --threads 2\n");
-    command->callback([options] { run(*options); });
+             "  actformer bench train --peers ../shared/reference --threads 2\n"
+             "  actformer bench train --method actor --persons 1 --classes 94 --batch 20 dropout=0 --peers "
+             "../shared/reference --peer tests/bench/actor_speed.py\n");
+    command->callback([options] { options->method.empty() ? run(*options) : run_method(*options); });
 }
 
 }  // namespace actformer::cli
