@@ -268,3 +268,25 @@ TEST_F(ActorNetwork, RefusesWhatItCannotTake) {
     EXPECT_THROW(net.decode(at::randn({2, 36}), some_labels(2), most_actor_frames + 1), Error);
     EXPECT_THROW(RestJoints(ingest::smpl24(), {}, "data"), Error);
 }
+
+TEST_F(ActorNetwork, RefusesConfigurationsThatFitNoMotions) {
+    const auto refused = [](const std::vector<std::string>& keys, Representation representation) {
+        auto config = generator_config(method_named("actor", "test"));
+        for (const auto& key : keys) config.override_with(key);
+        try {
+            actor_settings(config, {representation, ingest::ntu25(), 1, 94, "ntu"});
+        } catch (const Error& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    EXPECT_EQ(refused({"rcxyz=joints"}, Representation::limb),
+              "ntu: rcxyz: joints is for rotations, and its motions are limb; take rcxyz: auto");
+    EXPECT_EQ(refused({"rcxyz=joints"}, Representation::rot6d), "");
+    EXPECT_EQ(refused({"heads=3"}, Representation::limb),
+              "actor: heads: 3 do not divide width: 256; as in width: 255");
+    EXPECT_EQ(refused({"classes=13"}, Representation::limb),
+              "ntu: 94 classes, but the configuration says classes: 13");
+    EXPECT_EQ(refused({"persons=2"}, Representation::xyz),
+              "ntu: 1 person a clip, but the configuration says persons: 2");
+}
