@@ -23,7 +23,7 @@ constexpr std::uint32_t in_zip64 = 0xFFFFFFFF;
 constexpr std::size_t first_room = std::size_t{1} << 16;
 
 [[noreturn]] void no_archive() {
-    throw Error("no zip archive as numpy.savez writes it, or cut short");
+    throw Error("no zip archive, or cut short");
 }
 
 /// Numbers at places of a text.
@@ -105,7 +105,7 @@ ZipMember read_entry(const Bytes& archive, std::uint64_t& place) {
     const auto fail = [&](const std::string& what) { throw Error("{}: {}", in_quotes(member.name), what); };
     if (flags & 1) fail("encrypted");
     if (method != 0 && method != Z_DEFLATED)
-        fail(fmt::format("compressed by method {}, and not as numpy.savez does", method));
+        fail(fmt::format("compressed by method {}, which is not read", method));
     if (!archive.begins(offset, local_header)) fail("it is not where the archive's list says: damaged");
     const auto before =
         30 + std::uint64_t{archive.at<std::uint16_t>(offset + 26)} + archive.at<std::uint16_t>(offset + 28);

@@ -46,6 +46,14 @@ constexpr std::array table{
     PickleGlobal{"joblib.numpy_pickle", "ZNDArrayWrapper", Makes::in_other_file},
     PickleGlobal{"joblib.numpy_pickle_compat", "NDArrayWrapper", Makes::in_other_file},
     PickleGlobal{"joblib.numpy_pickle_compat", "ZNDArrayWrapper", Makes::in_other_file},
+    PickleGlobal{"torch._utils", "_rebuild_tensor", Makes::tensor},
+    PickleGlobal{"torch._utils", "_rebuild_tensor_v2", Makes::tensor},
+    PickleGlobal{"torch._utils", "_rebuild_parameter", Makes::tensor},
+    PickleGlobal{"torch", "Size", Makes::size},
+    PickleGlobal{"torch", "FloatStorage", Makes::storage},
+    PickleGlobal{"torch", "DoubleStorage", Makes::storage},
+    PickleGlobal{"torch", "HalfStorage", Makes::storage},
+    PickleGlobal{"torch", "LongStorage", Makes::storage},
 };
 
 }  // namespace

@@ -31,7 +31,11 @@ bool read_all(std::string_view line, Number& number) {
 }  // namespace
 
 PickleMachine::PickleMachine(std::string_view text, const PickleLimits& limits, PickleStore& store)
-    : text_(text), maker_(text_, limits, store), nesting_(limits.nesting) {}
+    : text_(text),
+      maker_(text_, limits, store),
+      nesting_(limits.nesting),
+      size_(text.size()),
+      tensors_(limits.tensors) {}
 
 PickleValue PickleMachine::run(const Pickle::Passed& passed) {
     constexpr unsigned char stop = '.';
@@ -347,8 +351,13 @@ bool PickleMachine::objects(unsigned char code) {
             maker_.fill(top(), state);
             return true;
         }
-        case 'P':
         case 'Q':
+            if (tensors_) {
+                push(maker_.value(maker_.node(Kind::reference, pop(1))));
+                return true;
+            }
+            [[fallthrough]];
+        case 'P':
             maker_.fail("a value that its writer keeps elsewhere");
         case 0x82:
         case 0x83:

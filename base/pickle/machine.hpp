@@ -19,6 +19,9 @@ class PickleMachine {
     /// Runs to STOP and returns what is then on top of the stack. Throws Error naming the byte.
     PickleValue run(const Pickle::Passed& passed);
 
+    /// Bytes of the text that were read.
+    std::uint64_t taken() const { return size_ - text_.left(); }
+
   private:
     // Opcodes of a kind; false where `code` is none of it.
     bool numbers(unsigned char code);
@@ -45,6 +48,8 @@ class PickleMachine {
     PickleText text_;
     PickleMaker maker_;
     std::size_t nesting_;
+    std::uint64_t size_;  ///< of the text
+    bool tensors_;
     std::vector<PickleValue> stack_, memo_;
     std::vector<std::size_t> marks_;  ///< sizes of the stack
     std::size_t highest_ = 0;         ///< size of the stack so far

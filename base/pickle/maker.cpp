@@ -30,6 +30,10 @@ bool makes(const PickleValue& value, Makes what) {
     return global && global->makes == what;
 }
 
+bool is_torch(const PickleGlobal& global) {
+    return global.makes == Makes::storage || global.makes == Makes::tensor || global.makes == Makes::size;
+}
+
 bool is_latin1(std::string_view encoding) {
     return encoding == "latin1" || encoding == "latin-1";
 }
@@ -95,7 +99,8 @@ std::string_view PickleMaker::text(const PickleValue& value) const {
 }
 
 PickleValue PickleMaker::global(std::string_view module, std::string_view name) const {
-    if (const auto* known = pickle_global(module, name)) return value(known);
+    if (const auto* known = pickle_global(module, name); known && (limits_.tensors || !is_torch(*known)))
+        return value(known);
     throw Error(
         "{} {} at byte {} is none of the names that a file of numbers needs: it is refused, and nothing was "
         "run",
@@ -142,7 +147,12 @@ PickleValue PickleMaker::call(const PickleValue& called, Arguments arguments) {
             return object(*global);
         case Makes::in_other_file:
             fail("an array in another file, as joblib below 0.10 writes it; load it there and dump it anew");
+        case Makes::size:
+            return container(Kind::tuple, arguments);
+        case Makes::tensor:
+            return kept_call(*global, arguments);
         case Makes::array_class:
+        case Makes::storage:
             break;
     }
     fail(fmt::format("{} {} is not called so by any writer", global->module, global->name));
@@ -330,6 +340,12 @@ PickleValue PickleMaker::object(const PickleGlobal& of) {
     return value(made);
 }
 
+PickleValue PickleMaker::kept_call(const PickleGlobal& of, Arguments arguments) {
+    auto& made = node(Kind::call, {arguments.begin(), arguments.end()});
+    made.of = &of;
+    return value(made);
+}
+
 /// Attributes, or (attributes, slots).
 void PickleMaker::fill_object(PickleNode& object, const PickleValue& state) const {
     const auto* given = node_of(state);
@@ -352,6 +368,9 @@ void PickleMaker::fill(const PickleValue& instance, const PickleValue& state) {
             if (node.of->makes == Makes::joblib_array) return fill_from_file(node, state);
             charge(sizeof(PickleValue) + overhead);
             return fill_object(node, state);
+        case Kind::dict:
+            if (limits_.tensors) return;  // a state_dict's versions of its modules
+            [[fallthrough]];
         default:
             fail(fmt::format("{} with attributes", instance.what()));
     }

@@ -57,6 +57,7 @@ class PickleMaker {
     PickleValue dict(Arguments arguments);
     PickleValue instance(Arguments arguments);
     PickleValue object(const PickleGlobal& of);
+    PickleValue kept_call(const PickleGlobal& of, Arguments arguments);
 
     void fill_type(PickleNode& type, const PickleValue& state) const;
     void fill_array(PickleNode& array, const PickleValue& state);

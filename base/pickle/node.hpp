@@ -28,6 +28,9 @@ struct PickleGlobal {
         object,         ///< a class whose instances are their attributes
         joblib_array,   ///< an array whose numbers follow in the file
         in_other_file,  ///< an array in a file beside this one
+        storage,        ///< PyTorch: a class of numbers that lie elsewhere in the file
+        tensor,         ///< PyTorch: a call that is kept as it stands, for readers of tensors
+        size,           ///< PyTorch: a tuple
     };
     std::string_view module, name;
     Makes makes;
@@ -45,8 +48,10 @@ struct PickleNode {
         object,
         array,
         unfilled,
-        type
-    };  ///< unfilled: an array without its state
+        type,
+        call,
+        reference
+    };  ///< unfilled: an array without its state; call: of `of`, with its arguments; reference: by its one item
     Kind kind = Kind::tuple;
     std::uint32_t depth = 1;  ///< of values in values, this one counted
     std::vector<PickleValue>

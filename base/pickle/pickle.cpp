@@ -14,10 +14,16 @@ Pickle::Pickle(std::string_view text, const PickleLimits& limits, const Passed& 
     if (is_html(text)) throw Error("{}", html_in_place_of("a pickle"));
     if (auto inside = unpacked(text, limits.unpacked)) {
         store_->unpacked = std::move(*inside);
-        root_ = PickleMachine(store_->unpacked, limits, *store_).run({});
+        run(store_->unpacked, limits, {});
     } else {
-        root_ = PickleMachine(text, limits, *store_).run(passed);
+        run(text, limits, passed);
     }
+}
+
+void Pickle::run(std::string_view text, const PickleLimits& limits, const Passed& passed) {
+    PickleMachine machine(text, limits, *store_);
+    root_ = machine.run(passed);
+    size_ = machine.taken();
 }
 
 Pickle::~Pickle() = default;

@@ -22,6 +22,7 @@ struct PickleLimits {
     std::uint64_t memory = std::uint64_t{512}
                            << 20;  ///< bytes of values, memo and stack; arrays take next to none
     std::uint64_t unpacked = std::uint64_t{512} << 20;  ///< bytes of a compressed file's text
+    bool tensors = false;  ///< PyTorch's names too, and values that lie elsewhere in its files
 };
 
 class Pickle {
@@ -38,9 +39,15 @@ class Pickle {
 
     const PickleValue& root() const { return root_; }
 
+    /// Bytes of the (unpacked) text that it takes; others may follow.
+    std::uint64_t size() const { return size_; }
+
   private:
+    void run(std::string_view text, const PickleLimits& limits, const Passed& passed);
+
     std::unique_ptr<PickleStore> store_;
     PickleValue root_;
+    std::uint64_t size_ = 0;
 };
 
 }  // namespace actformer

@@ -40,8 +40,19 @@ std::string what_node(const PickleNode& node) {
             return "an array without numbers";
         case Kind::type:
             return "a NumPy type";
+        case Kind::call:
+            return fmt::format("a call of {} {}", node.of->module, node.of->name);
+        case Kind::reference:
+            return "a value that lies elsewhere";
     }
     return {};
+}
+
+/// "chumpy.ch Ch"
+bool is_called(const PickleGlobal& global, std::string_view called) {
+    const auto module = global.module;
+    return called.size() == module.size() + 1 + global.name.size() && called.starts_with(module) &&
+           called[module.size()] == ' ' && called.ends_with(global.name);
 }
 
 }  // namespace
@@ -68,7 +79,8 @@ void PickleValue::not_a(std::string_view wanted) const {
 
 bool PickleValue::is_sequence() const {
     const auto* n = node();
-    return n && (n->kind == Kind::list || n->kind == Kind::tuple || n->kind == Kind::set);
+    return n &&
+           (n->kind == Kind::list || n->kind == Kind::tuple || n->kind == Kind::set || n->kind == Kind::call);
 }
 
 bool PickleValue::is_dict() const {
@@ -83,10 +95,18 @@ bool PickleValue::is_array() const {
 
 bool PickleValue::is_object(std::string_view called) const {
     const auto* n = node();
-    if (!n || n->kind != Kind::object) return false;
-    const auto module = n->of->module;
-    return called.size() == module.size() + 1 + n->of->name.size() && called.starts_with(module) &&
-           called[module.size()] == ' ' && called.ends_with(n->of->name);
+    return n && n->kind == Kind::object && is_called(*n->of, called);
+}
+
+bool PickleValue::is_call(std::string_view called) const {
+    const auto* n = node();
+    return n && n->kind == Kind::call && is_called(*n->of, called);
+}
+
+std::optional<PickleValue> PickleValue::reference() const {
+    const auto* n = node();
+    if (!n || n->kind != Kind::reference) return {};
+    return n->items[0];
 }
 
 bool PickleValue::truth() const {

@@ -43,12 +43,18 @@ class PickleValue {
     bool is_text() const {
         return std::holds_alternative<Text>(held_) || std::holds_alternative<Bytes>(held_);
     }
-    bool is_sequence() const;  ///< list, tuple or set
+    bool is_sequence() const;  ///< list, tuple, set or call
     bool is_dict() const;
     bool is_array() const;
 
     /// An instance of the class that pickles call so, as in "chumpy.ch Ch".
     bool is_object(std::string_view called) const;
+
+    /// A call that is kept as it stands, of what pickles call so; its arguments are elements, as of a tuple.
+    bool is_call(std::string_view called) const;
+
+    /// What a value is called by that lies elsewhere in the file; none of others.
+    std::optional<PickleValue> reference() const;
 
     bool truth() const;
     std::int64_t whole() const;

@@ -1,0 +1,382 @@
+#include "base/pytorch/torch_file.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/numpy/zip.hpp"
+#include "base/pickle/pickle.hpp"
+#include "base/text/html.hpp"
+#include "base/text/printable.hpp"
+
+namespace actformer {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are read as they lie");
+
+using Type = TorchTensor::Type;
+
+/// The older form begins with a pickle of this whole number.
+constexpr std::string_view old_magic("\x80\x02\x8a\x0a\x6c\xfc\x9c\x46\xf9\x20\x6a\xa8\x50\x19.", 15);
+constexpr std::int64_t old_version = 1001;
+constexpr std::string_view zip_begin = "PK";
+constexpr const char* other_order = "numbers with their highest byte first; save it on another machine";
+constexpr std::size_t deepest_group = 8, most_entries = std::size_t{1} << 20;
+constexpr std::int64_t most_numbers = std::int64_t{1} << 40;
+constexpr std::uint64_t largest_text = std::uint64_t{4} << 30;
+
+std::size_t size_of(Type type) {
+    switch (type) {
+        case Type::float32:
+            return 4;
+        case Type::float16:
+            return 2;
+        case Type::float64:
+        case Type::int64:
+            break;
+    }
+    return 8;
+}
+
+PickleLimits limits() {
+    PickleLimits limits;
+    limits.tensors = true;
+    return limits;
+}
+
+/// Runs `read` and says in which part of the file it failed.
+template <typename Read>
+auto within(const std::string& part, const Read& read) {
+    try {
+        return read();
+    } catch (const Error& e) {
+        throw Error("{}: {}", part, e.what());
+    }
+}
+
+Type type_of(const PickleValue& storage_class) {
+    const auto what = storage_class.what();
+    for (const auto& [name, type] : {std::pair{"Float", Type::float32}, std::pair{"Double", Type::float64},
+                                     std::pair{"Half", Type::float16}, std::pair{"Long", Type::int64}})
+        if (what == fmt::format("the name torch {}Storage", name)) return type;
+    throw Error("byte {}: {} for a class of storages", storage_class.at(), what);
+}
+
+/// What a storage is called by: ('storage', class, key, location, numbers), and in the older form a view or None behind.
+struct StorageId {
+    Type type;
+    std::string key;
+    std::uint64_t numbers;
+
+    std::uint64_t bytes() const { return numbers * size_of(type); }
+
+    explicit StorageId(const PickleValue& reference) {
+        const auto id = reference.reference();
+        if (!id || !id->is_sequence() || id->size() < 5 || !(*id)[0].is_text() ||
+            (*id)[0].bytes() != "storage")
+            throw Error("byte {}: {} where a storage belongs", reference.at(), reference.what());
+        if (id->size() > 5 && !(*id)[5].is_none())
+            throw Error("byte {}: a view of a storage, as PyTorch below 0.4 writes it; load and save it anew",
+                        reference.at());
+        type = type_of((*id)[1]);
+        key = (*id)[2].text();
+        const auto count = (*id)[4].whole();
+        if (count < 0 || count > most_numbers)
+            throw Error("byte {}: a storage of {} numbers", reference.at(), count);
+        numbers = static_cast<std::uint64_t>(count);
+    }
+};
+
+/// A storage's bytes, by its id.
+using Storages = std::function<std::string_view(const StorageId&)>;
+
+std::vector<std::uint64_t> whole_numbers(const PickleValue& list) {
+    std::vector<std::uint64_t> out;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const auto number = list[i].whole();
+        if (number < 0) throw Error("byte {}: {} in a tensor's shape or strides", list.at(), number);
+        out.push_back(static_cast<std::uint64_t>(number));
+    }
+    return out;
+}
+
+/// Throws Error where a tensor reaches beyond `count` numbers, or has more numbers than there are.
+void check_reach(const TorchTensor& tensor, std::uint64_t offset, std::uint64_t count, std::uint64_t at) {
+    const auto fail = [&] {
+        throw Error("byte {}: a tensor ({}) from number {} on reaches beyond its storage of {}: damaged", at,
+                    fmt::join(tensor.shape, ", "), offset, count);
+    };
+    if (tensor.shape.size() != tensor.strides.size()) fail();
+    if (offset > count) fail();
+    std::uint64_t elements = 1, last = offset;
+    for (const auto length : tensor.shape)
+        if (length == 0) return;
+    for (std::size_t i = 0; i < tensor.shape.size(); ++i) {
+        const auto length = tensor.shape[i], stride = tensor.strides[i];
+        if (length > count / elements) fail();
+        elements *= length;
+        if (length > 1 && stride > (count - std::min(last, count)) / (length - 1)) fail();
+        last += (length - 1) * stride;
+    }
+    if (last >= count) fail();
+}
+
+/// _rebuild_tensor_v2(storage, offset, shape, strides, ...), of which _rebuild_parameter may be made.
+bool is_tensor(const PickleValue& value) {
+    return value.is_call("torch._utils _rebuild_tensor_v2") ||
+           value.is_call("torch._utils _rebuild_tensor") || value.is_call("torch._utils _rebuild_parameter");
+}
+
+TorchTensor tensor_of(const PickleValue& value, const Storages& storages) {
+    if (value.is_call("torch._utils _rebuild_parameter")) {
+        const auto inner = value[0];
+        if (!is_tensor(inner) || inner.is_call("torch._utils _rebuild_parameter"))
+            throw Error("byte {}: a parameter without its tensor", value.at());
+        return tensor_of(inner, storages);
+    }
+    const StorageId id(value[0]);
+    TorchTensor tensor;
+    tensor.type = id.type;
+    tensor.shape = whole_numbers(value[2]);
+    tensor.strides = whole_numbers(value[3]);
+    const auto offset = value[1].whole();
+    if (offset < 0) throw Error("byte {}: a tensor that begins at number {}", value.at(), offset);
+    check_reach(tensor, static_cast<std::uint64_t>(offset), id.numbers, value.at());
+    const auto storage = storages(id);
+    if (!storage.empty())
+        tensor.numbers = storage.substr(static_cast<std::uint64_t>(offset) * size_of(tensor.type));
+    return tensor;
+}
+
+/// Collects the tensors of a dict and of the dicts in it.
+class Collector {
+  public:
+    Collector(const Storages& storages, std::vector<TorchTensor>& to) : storages_(storages), to_(to) {}
+
+    void take(const PickleValue& dict, const std::string& group, std::size_t depth) {
+        for (std::size_t i = 0; i < dict.size(); ++i) {
+            if (++entries_ > most_entries)
+                throw Error("byte {}: dicts of more than {} entries: made to exhaust its readers", dict.at(),
+                            most_entries);
+            const auto [key, value] = dict.entry(i);
+            if (!key.is_text()) continue;  // an optimiser's numbered parameters
+            if (is_tensor(value)) {
+                to_.push_back(tensor_of(value, storages_));
+                to_.back().group = group;
+                to_.back().name = key.text();
+            } else if (value.is_dict() && depth < deepest_group) {
+                take(value, group.empty() ? key.text() : group + "/" + key.text(), depth + 1);
+            }
+        }
+    }
+
+  private:
+    const Storages& storages_;
+    std::vector<TorchTensor>& to_;
+    std::size_t entries_ = 0;  ///< seen so far, for dicts may hold one another many times
+};
+
+void collect(const PickleValue& root, const Storages& storages, std::vector<TorchTensor>& to) {
+    if (!root.is_dict())
+        throw Error("byte {}: {}, where a dict of tensors belongs; save a model's state_dict()", root.at(),
+                    root.what());
+    Collector(storages, to).take(root, "", 0);
+}
+
+/// A zip archive: NAME/data.pkl, and NAME/data/KEY for each storage.
+std::vector<TorchTensor> read_zip(std::string_view bytes, std::deque<std::vector<char>>& unpacked) {
+    std::map<std::string, ZipMember> members;
+    for (auto& member : zip_members(bytes)) members.emplace(member.name, member);
+    constexpr std::string_view pickle_name = "data.pkl";
+    const auto found = std::ranges::find_if(members, [&](const auto& one) {
+        return one.first == pickle_name || one.first.ends_with("/data.pkl");
+    });
+    if (found == members.end())
+        throw Error("a zip archive without data.pkl: not a file of torch.save; TorchScript is not read");
+    const auto folder = found->first.substr(0, found->first.size() - pickle_name.size());
+    const auto text_of = [&](const ZipMember& member) {
+        return within(member.name, [&] { return zip_text(member, unpacked.emplace_back(), largest_text); });
+    };
+    if (const auto order = members.find(folder + "byteorder");
+        order != members.end() && text_of(order->second) != "little")
+        throw Error("{}", other_order);
+    std::map<std::string, std::string_view> texts;
+    const auto storage = [&](const StorageId& id) {
+        const auto name = folder + "data/" + id.key;
+        const auto member = members.find(name);
+        if (member == members.end()) throw Error("no storage {} in the archive: damaged", in_quotes(id.key));
+        auto text = texts.find(name);
+        if (text == texts.end()) text = texts.emplace(name, text_of(member->second)).first;
+        if (text->second.size() < id.bytes())
+            throw Error("storage {} has {} bytes where {} numbers belong: damaged", in_quotes(id.key),
+                        text->second.size(), id.numbers);
+        return text->second.substr(0, id.bytes());
+    };
+    std::vector<TorchTensor> tensors;
+    within(found->first, [&] {
+        const Pickle pickle(text_of(found->second), limits());
+        collect(pickle.root(), storage, tensors);
+    });
+    return tensors;
+}
+
+/// Pickles one behind another.
+class Pickles {
+  public:
+    Pickles(std::string_view bytes, std::size_t from) : bytes_(bytes), at_(from) {}
+
+    std::size_t at() const { return at_; }
+
+    Pickle next() {
+        return within(fmt::format("the pickle from byte {} on", at_), [&] {
+            Pickle pickle(bytes_.substr(at_), limits());
+            at_ += pickle.size();
+            return pickle;
+        });
+    }
+
+    /// Bytes between them.
+    std::string_view take(std::uint64_t count) {
+        if (count > bytes_.size() - at_) throw Error("{} bytes belong behind byte {}: cut short", count, at_);
+        const auto taken = bytes_.substr(at_, count);
+        at_ += count;
+        return taken;
+    }
+
+  private:
+    std::string_view bytes_;
+    std::size_t at_;
+};
+
+std::string_view storage_named(const std::map<std::string, std::string_view>& storages, const StorageId& id) {
+    const auto found = storages.find(id.key);
+    if (found == storages.end()) throw Error("storage {} is missing: damaged", in_quotes(id.key));
+    if (found->second.size() != id.bytes())
+        throw Error("storage {} is of several sizes: damaged", in_quotes(id.key));
+    return found->second;
+}
+
+/// Each storage's count and numbers, in the order of `keys`.
+std::map<std::string, std::string_view> old_storages(const PickleValue& keys,
+                                                     const std::map<std::string, StorageId>& ids,
+                                                     Pickles& pickles) {
+    std::map<std::string, std::string_view> storages;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        const auto key = keys[i].text();
+        const auto id = ids.find(key);
+        if (id == ids.end()) throw Error("storage {} is no tensor's: damaged", in_quotes(key));
+        std::uint64_t count = 0;
+        std::memcpy(&count, pickles.take(sizeof count).data(), sizeof count);
+        if (count != id->second.numbers)
+            throw Error("storage {} has {} numbers where {} belong: damaged", in_quotes(key), count,
+                        id->second.numbers);
+        storages[key] = pickles.take(id->second.bytes());
+    }
+    return storages;
+}
+
+/// A magic number, a version, a description of the machine, the object, the storages' keys, and each storage's count and numbers.
+std::vector<TorchTensor> read_old(std::string_view bytes) {
+    Pickles pickles(bytes, old_magic.size());
+    const auto version = pickles.next();
+    if (const auto number = version.root().whole(); number != old_version)
+        throw Error("version {} of PyTorch's older form; {} is known", number, old_version);
+    const auto machine = pickles.next();
+    if (const auto little = machine.root().is_dict() ? machine.root().find("little_endian") : std::nullopt;
+        little && !little->truth())
+        throw Error("{}", other_order);
+    const auto part = fmt::format("the pickle from byte {} on", pickles.at());
+    const auto object = pickles.next();
+    const auto keys = pickles.next();
+    // Storages lie in the order of their keys; tensors alone tell how large their numbers are.
+    std::map<std::string, StorageId> ids;
+    std::vector<TorchTensor> tensors;
+    within(part, [&] {
+        collect(
+            object.root(),
+            [&](const StorageId& id) {
+                ids.emplace(id.key, id);
+                return std::string_view{};
+            },
+            tensors);
+    });
+    const auto storages = old_storages(keys.root(), ids, pickles);
+    tensors.clear();
+    within(part, [&] {
+        collect(
+            object.root(), [&](const StorageId& id) { return storage_named(storages, id); }, tensors);
+    });
+    return tensors;
+}
+
+/// Of IEEE 754 binary16.
+float half_number(std::uint16_t bits) {
+    const auto exponent = bits >> 10 & 31, fraction = bits & 1023;
+    const double magnitude = exponent == 0    ? std::ldexp(fraction, -24)
+                             : exponent == 31 ? (fraction == 0 ? std::numeric_limits<double>::infinity()
+                                                               : std::numeric_limits<double>::quiet_NaN())
+                                              : std::ldexp(1024 + fraction, exponent - 25);
+    return static_cast<float>(bits & 0x8000 ? -magnitude : magnitude);
+}
+
+template <typename Number>
+float number_at(std::string_view numbers, std::uint64_t place) {
+    Number number;
+    std::memcpy(&number, numbers.data() + place * sizeof number, sizeof number);
+    return static_cast<float>(number);
+}
+
+float number_at(Type type, std::string_view numbers, std::uint64_t place) {
+    switch (type) {
+        case Type::float32:
+            return number_at<float>(numbers, place);
+        case Type::float64:
+            return number_at<double>(numbers, place);
+        case Type::int64:
+            return number_at<std::int64_t>(numbers, place);
+        case Type::float16:
+            break;
+    }
+    std::uint16_t bits = 0;
+    std::memcpy(&bits, numbers.data() + 2 * place, sizeof bits);
+    return half_number(bits);
+}
+
+}  // namespace
+
+std::vector<float> TorchTensor::values() const {
+    std::vector<float> out;
+    if (std::ranges::find(shape, 0U) != shape.end()) return out;
+    std::vector<std::uint64_t> index(shape.size(), 0);
+    std::uint64_t place = 0;
+    for (bool more = true; more;) {
+        out.push_back(number_at(type, numbers, place));
+        more = false;
+        for (auto axis = shape.size(); axis-- > 0 && !more;) {  // as an odometer
+            place += strides[axis];
+            more = ++index[axis] < shape[axis];
+            if (!more) place -= strides[axis] * std::exchange(index[axis], 0);
+        }
+    }
+    return out;
+}
+
+TorchFile::TorchFile(std::string_view bytes) {
+    if (bytes.starts_with(old_magic))
+        tensors_ = read_old(bytes);
+    else if (bytes.starts_with(zip_begin))
+        tensors_ = read_zip(bytes, unpacked_);
+    else if (is_html(bytes))
+        throw Error("{}", html_in_place_of("weights"));
+    else
+        throw Error("neither a zip archive of torch.save nor its older form");
+}
+
+}  // namespace actformer
