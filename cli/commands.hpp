@@ -21,6 +21,7 @@ void add_train(CLI::App& app);
 void add_train_recogniser(CLI::App& train);
 void add_train_generator(CLI::App& train);
 void add_generate(CLI::App& app);
+void add_import(CLI::App& app);
 void add_model(CLI::App& app);
 
 /// Ends a command's --help with lines that can be typed as they stand.

@@ -19,6 +19,7 @@ constexpr Subprogram subprograms[] = {
     {"render", "actformer-render", "Draw motions: a contact sheet (.png), a .gif or an .mp4"},
     {"train", "actformer-train", "Train a recogniser or a generator"},
     {"generate", "actformer-train", "Generate motions with a trained generator"},
+    {"import", "actformer-train", "Turn released PyTorch weights into weights of ours"},
     {"model", "actformer-train", "Print a configuration's layers, shapes and parameter counts"}};
 
 std::filesystem::path path_of(const Subprogram& sub) {
@@ -35,17 +36,18 @@ void wait_without_spinning() {
 int become(const Subprogram& sub, char** argv) {
     wait_without_spinning();
     ::execv(path_of(sub).c_str(), argv);
-    std::fprintf(stderr,
-                 "actformer: this build has no '%s': %s is not beside it (train, generate, model and score "
-                 "--generator need "
-                 "libtorch; see README)\n",
-                 sub.command, sub.program);
+    std::fprintf(
+        stderr,
+        "actformer: this build has no '%s': %s is not beside it (train, generate, import, model and score "
+        "--generator need "
+        "libtorch; see README)\n",
+        sub.command, sub.program);
     return 1;
 }
 
 /// `bench train` lives with what it measures; the other benchmarks are here.
 constexpr Subprogram bench_train{"bench train", "actformer-train",
-                                 "ActFormer's training and generation, beside eager PyTorch"};
+                                 "Training and generation, beside eager PyTorch"};
 
 /// `score --generator` lives with the generators, whose motions never leave memory.
 constexpr Subprogram score_generator{"score --generator", "actformer-train", ""};
@@ -65,7 +67,7 @@ bool asks_for_bench_train(int argc, char** argv) {
 void group_commands(CLI::App& app) {
     const std::pair<const char*, std::vector<std::string>> groups[] = {
         {"Data", {"synth", "ingest", "inspect", "export", "render"}},
-        {"Networks", {"train", "model", "generate", "features", "classify"}},
+        {"Networks", {"train", "model", "generate", "import", "features", "classify"}},
         {"Results", {"score", "sweep", "report"}},
         {"This machine", {"devices", "bench"}}};
     for (auto* command : app.get_subcommands([](CLI::App*) { return true; }))

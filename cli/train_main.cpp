@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
     return actformer::cli::run_program(argc, argv, [](CLI::App& app) {
         actformer::cli::add_train(app);
         actformer::cli::add_generate(app);
+        actformer::cli::add_import(app);
         actformer::cli::add_model(app);
         actformer::cli::add_score(app, actformer::model::generated_sets);
         auto* bench =

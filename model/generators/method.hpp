@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,15 @@ class Maker {
                                     std::uint32_t frames) = 0;
 };
 
+/// A released checkpoint as a method takes it.
+struct PublicWeights {
+    std::vector<std::string> settings;  ///< of its configuration, key=value
+    std::vector<Array> weights;         ///< under the names of its own
+};
+
+/// Throws Error, beginning with spec.where, unless weights for `numbers` numbers a frame fit the motions.
+void check_frame(std::int64_t numbers, const MotionSpec& spec);
+
 struct Method {
     std::string name;   ///< as in a configuration's line `model: NAME`
     std::string title;  ///< for the help text, with its source
@@ -78,6 +88,11 @@ struct Method {
     /// that are missing or of another shape.
     std::unique_ptr<Maker> (*maker)(const Config& config, const MotionSpec& spec,
                                     const std::vector<Array>& weights, const std::string& device) = nullptr;
+
+    /// Null where nobody released weights. `arrays` are a checkpoint's, named as in its state_dict: none where they are another
+    /// method's. Throws Error, beginning with spec.where, where they are for other motions or of a variant.
+    std::optional<PublicWeights> (*public_weights)(std::vector<Array> arrays,
+                                                   const MotionSpec& spec) = nullptr;
 };
 
 /// All methods; the first is what a configuration without the line `model:` means.

@@ -68,4 +68,15 @@ MotionSpec spec_of(const ingest::Subjects& subjects, const std::string& where) {
     return spec;
 }
 
+void check_frame(std::int64_t numbers, const MotionSpec& spec) {
+    const auto wanted = std::int64_t{spec.nodes()} * spec.numbers() * spec.persons;
+    if (numbers != wanted)
+        throw Error(
+            "{}: weights for {} numbers a frame, and the dataset's frames have {}: {} nodes of {} numbers "
+            "({}) of {} "
+            "person{}",
+            spec.where, numbers, wanted, spec.nodes(), spec.numbers(), spec.representation.name(),
+            spec.persons, spec.persons == 1 ? "" : "s");
+}
+
 }  // namespace actformer::model

@@ -3,6 +3,7 @@
 #include "model/generators/action2motion/layers.hpp"
 #include "model/generators/action2motion/learner.hpp"
 #include "model/generators/action2motion/maker.hpp"
+#include "model/generators/action2motion/public_weights.hpp"
 
 namespace actformer::model::action2motion {
 namespace {
@@ -24,7 +25,8 @@ std::unique_ptr<Maker> maker(const Config& config, const MotionSpec& spec, const
 
 Method method() {
     return {
-        "action2motion", "Action2Motion (Guo et al., ACM Multimedia 2020)", keys, networks, learner, maker};
+        "action2motion", "Action2Motion (Guo et al., ACM Multimedia 2020)", keys, networks, learner, maker,
+        public_weights};
 }
 
 }  // namespace actformer::model::action2motion

@@ -4,6 +4,7 @@
 
 #include "model/generators/actor/layers.hpp"
 #include "model/generators/actor/learner.hpp"
+#include "model/generators/actor/public_weights.hpp"
 #include "model/generators/finish.hpp"
 #include "model/nn/module_arrays.hpp"
 #include "model/train/training.hpp"
@@ -68,7 +69,13 @@ std::unique_ptr<Maker> maker(const Config& config, const MotionSpec& spec, const
 }  // namespace
 
 Method actor_method() {
-    return {"actor", "ACTOR (Petrovich et al., ICCV 2021)", actor_keys, networks, learner, maker};
+    return {"actor",
+            "ACTOR (Petrovich et al., ICCV 2021)",
+            actor_keys,
+            networks,
+            learner,
+            maker,
+            actor_public_weights};
 }
 
 }  // namespace actformer::model
