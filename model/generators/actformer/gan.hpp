@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "model/generators/actformer/discriminator.hpp"
-#include "model/generators/actformer/gan_settings.hpp"
 #include "model/generators/actformer/generator.hpp"
-#include "model/generators/actformer/prior.hpp"
+#include "model/generators/adversarial/gan_settings.hpp"
+#include "model/generators/adversarial/prior.hpp"
 #include "model/nn/adam.hpp"
 #include "model/nn/array.hpp"
 #include "model/train/processes.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "model/generators/actformer/coarsening.hpp"
 #include "model/generators/actformer/settings.hpp"
+#include "model/generators/graph/coarsening.hpp"
 #include "model/nn/network.hpp"
 
 namespace actformer::model {

@@ -1,6 +1,6 @@
 #include "model/generators/actformer/learner.hpp"
 
-#include "model/generators/actformer/collapse.hpp"
+#include "model/generators/adversarial/collapse.hpp"
 #include "model/nn/module_arrays.hpp"
 #include "model/train/training.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/generators/actformer/generator.hpp"
-#include "model/generators/actformer/prior.hpp"
+#include "model/generators/adversarial/prior.hpp"
 
 namespace actformer::model {
 

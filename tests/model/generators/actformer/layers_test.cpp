@@ -3,7 +3,7 @@
 #include <ATen/Parallel.h>
 #include <gtest/gtest.h>
 
-#include "model/generators/actformer/coarsening.hpp"
+#include "model/generators/graph/coarsening.hpp"
 #include "model/nn/fused.hpp"
 #include "tests/support/gradients.hpp"
 #include "tests/support/rounding.hpp"

@@ -9,7 +9,7 @@
 #include "base/hdf5/writer.hpp"
 #include "model/generators/actformer/discriminator.hpp"
 #include "model/generators/actformer/generator.hpp"
-#include "model/generators/actformer/prior.hpp"
+#include "model/generators/adversarial/prior.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
 

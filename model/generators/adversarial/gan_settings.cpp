@@ -1,4 +1,4 @@
-#include "model/generators/actformer/gan_settings.hpp"
+#include "model/generators/adversarial/gan_settings.hpp"
 
 #include "base/error.hpp"
 #include "model/train/key_table.hpp"
@@ -15,7 +15,7 @@ const KeyTable<GanSettings>& table() {
                                                   .least = 1,
                                                   .most = 1000})
             .add(&Settings::loss, {.name = "loss",
-                                   .meaning = "hinge (public tools) or wasserstein (the paper's equation 1)",
+                                   .meaning = "hinge (public tools) or wasserstein (equation 1 of ActFormer)",
                                    .choices = {"wasserstein", "hinge"}})
             .add(&Settings::generator_rate,
                  {.name = "generator_rate", .meaning = "learning rate", .least = 0, .most = 1})

@@ -1,4 +1,4 @@
-#include "model/generators/actformer/collapse.hpp"
+#include "model/generators/adversarial/collapse.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <map>
 #include <mutex>
 
-#include "model/generators/actformer/settings.hpp"
+#include "model/generators/adversarial/prior_settings.hpp"
 
 namespace actformer::model {
 

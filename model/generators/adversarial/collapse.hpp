@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "model/generators/actformer/gan_settings.hpp"
+#include "model/generators/adversarial/gan_settings.hpp"
 
 namespace actformer::model {
 

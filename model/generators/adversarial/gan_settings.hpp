@@ -1,4 +1,4 @@
-// How ActFormer's two networks train against each other (the paper's equation 1). Of what they are made, see settings.hpp.
+// How a generator and a discriminator train against each other. Of what the networks are made, their method says.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace actformer::model {
 
 enum class Loss {
-    wasserstein,  ///< D: mean D(fake) - mean D(real); G: - mean D(fake) (the paper's equation 1)
+    wasserstein,  ///< D: mean D(fake) - mean D(real); G: - mean D(fake) (equation 1 of ActFormer)
     hinge         ///< D: mean max(0, 1 - D(real)) + mean max(0, 1 + D(fake)); G the same
 };
 

@@ -1,5 +1,5 @@
 // The prior: covariances of many draws, and what decides on a draw.
-#include "model/generators/actformer/prior.hpp"
+#include "model/generators/adversarial/prior.hpp"
 
 #include <ATen/Parallel.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "model/generators/actformer/coarsening.hpp"
+#include "model/generators/graph/coarsening.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Losses of networks that no longer learn from each other.
-#include "model/generators/actformer/collapse.hpp"
+#include "model/generators/adversarial/collapse.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Coarsening: NTU's skeleton by its published levels, small trees against all their independent sets.
-#include "model/generators/actformer/coarsening.hpp"
+#include "model/generators/graph/coarsening.hpp"
 
 #include <gtest/gtest.h>
 

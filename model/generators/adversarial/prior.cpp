@@ -1,4 +1,4 @@
-#include "model/generators/actformer/prior.hpp"
+#include "model/generators/adversarial/prior.hpp"
 
 #include <ATen/Parallel.h>
 
