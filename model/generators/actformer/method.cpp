@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "model/generators/actformer/layers.hpp"
-#include "model/generators/actformer/learner.hpp"
-#include "model/generators/actformer/maker.hpp"
+#include "model/generators/adversarial/learner.hpp"
+#include "model/generators/adversarial/maker.hpp"
 #include "model/nn/module_arrays.hpp"
 #include "model/train/training.hpp"
 

@@ -5,8 +5,8 @@
 #include <functional>
 
 #include "model/cpu/layer_clock.hpp"
-#include "model/generators/actformer/gan.hpp"
-#include "model/generators/actformer/maker.hpp"
+#include "model/generators/adversarial/gan.hpp"
+#include "model/generators/adversarial/maker.hpp"
 #include "model/nn/blas.hpp"
 
 namespace actformer::model {

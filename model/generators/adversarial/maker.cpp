@@ -1,4 +1,4 @@
-#include "model/generators/actformer/maker.hpp"
+#include "model/generators/adversarial/maker.hpp"
 
 namespace actformer::model {
 

@@ -1,7 +1,7 @@
 // ActFormer in the training loop. Includes torch headers.
 #pragma once
 
-#include "model/generators/actformer/gan.hpp"
+#include "model/generators/adversarial/gan.hpp"
 #include "model/train/learner.hpp"
 #include "model/train/window_feed.hpp"
 

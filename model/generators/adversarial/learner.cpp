@@ -1,4 +1,4 @@
-#include "model/generators/actformer/learner.hpp"
+#include "model/generators/adversarial/learner.hpp"
 
 #include "model/generators/adversarial/collapse.hpp"
 #include "model/nn/module_arrays.hpp"

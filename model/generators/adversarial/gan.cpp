@@ -1,4 +1,4 @@
-#include "model/generators/actformer/gan.hpp"
+#include "model/generators/adversarial/gan.hpp"
 
 #include <algorithm>
 
