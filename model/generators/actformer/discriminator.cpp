@@ -1,6 +1,7 @@
 #include "model/generators/actformer/discriminator.hpp"
 
 #include "base/error.hpp"
+#include "model/generators/graph/motion_input.hpp"
 
 namespace actformer::model {
 namespace {
@@ -11,13 +12,6 @@ constexpr std::int64_t person_heads = 8, last_padding = 1;
 DiscriminatorSettings checked(DiscriminatorSettings settings) {
     check(settings);
     return settings;
-}
-
-/// The differences from frame to frame behind the channels, (N, 2C, T, K); the first frame's are 0.
-at::Tensor with_differences(const at::Tensor& x) {
-    const auto t = x.size(2);
-    const auto moved = x.slice(2, 1, t) - x.slice(2, 0, t - 1);
-    return at::cat({x, at::cat({at::zeros_like(x.slice(2, 0, 1)), moved}, 2)}, 1);
 }
 
 }  // namespace

@@ -1,14 +1,13 @@
 // ActFormer's discriminator (Xu, Song et al., ICCV 2023). Includes torch headers: for model/'s own sources and tests only.
 #pragma once
 
-#include <torch/nn/module.h>
-
 #include "model/generators/actformer/layers.hpp"
+#include "model/generators/adversarial/networks.hpp"
 #include "model/nn/weight_store.hpp"
 
 namespace actformer::model {
 
-class Discriminator : public torch::nn::Module {
+class Discriminator : public GanDiscriminator {
   public:
     /// Weights start at random from `seed`, alike on every device; to(device) moves them. `type` is at::kFloat, or
     /// at::kDouble for checks. Throws Error for settings of no network.
@@ -16,7 +15,7 @@ class Discriminator : public torch::nn::Module {
 
     /// motion (N, P*D, T, K), labels (N) int64 -> scores (N), the higher the more real. At least fewest_frames frames; throws
     /// Error below. In training mode one power iteration moves every spectral norm: give real and generated motions together.
-    at::Tensor forward(const at::Tensor& motion, const at::Tensor& labels);
+    at::Tensor forward(const at::Tensor& motion, const at::Tensor& labels) override;
 
     const DiscriminatorSettings& settings() const { return settings_; }
     const WeightStore& weights() const { return weights_; }

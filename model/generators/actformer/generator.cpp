@@ -173,6 +173,12 @@ at::Tensor Generator::finished(const at::Tensor& poses) const {
     return with_position(normalised(poses.tanh(), how.finish()), poses, how);
 }
 
+/// The EMA's singular vectors are close to those of the last weights: a few power iterations from there find them.
+void Generator::find_buffers(const Prior& /*prior*/, std::int64_t /*frames*/) {
+    for (const auto& weight : generator_weights(settings_))
+        for (int i = 0; weight.spectral && i < 10; ++i) weights_.normalised(weight.name, true);
+}
+
 at::Tensor Generator::forward(const at::Tensor& latent, const at::Tensor& labels) {
     const auto n = latent.size(0), t = latent.size(2);
     if (latent.dim() != 4 || latent.size(1) != settings_.prior.streams ||

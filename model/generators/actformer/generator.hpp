@@ -1,14 +1,13 @@
 // ActFormer's generator (Xu, Song et al., ICCV 2023). Includes torch headers: for model/'s own sources and tests only.
 #pragma once
 
-#include <torch/nn/module.h>
-
 #include "model/generators/actformer/layers.hpp"
+#include "model/generators/adversarial/networks.hpp"
 #include "model/nn/weight_store.hpp"
 
 namespace actformer::model {
 
-class Generator : public torch::nn::Module {
+class Generator : public GanGenerator {
   public:
     /// Weights start at random from `seed`, alike on every device; to(device) moves them. `type` is at::kFloat, or
     /// at::kDouble for checks. Throws Error for settings of no network.
@@ -17,6 +16,13 @@ class Generator : public torch::nn::Module {
     /// latent (N, streams, T, channels) of Prior::draw, labels (N) int64 -> motion (N, P*D, T, K), person by person. T up to
     /// settings().frames; Throws Error beyond. In training mode one power iteration moves every spectral norm.
     at::Tensor forward(const at::Tensor& latent, const at::Tensor& labels);
+
+    const PriorSettings& prior() const override { return settings_.prior; }
+    at::Tensor generate(const at::Tensor& latent, const at::Tensor& labels,
+                        std::int64_t /*frames*/) override {
+        return forward(latent, labels);
+    }
+    void find_buffers(const Prior& prior, std::int64_t frames) override;
 
     const GeneratorSettings& settings() const { return settings_; }
     const WeightStore& weights() const { return weights_; }
@@ -37,8 +43,8 @@ class Generator : public torch::nn::Module {
     at::Tensor block(const at::Tensor& x, const std::string& prefix) const;
     at::Tensor attention(const at::Tensor& x, const std::string& prefix) const;
     at::Tensor poses(const at::Tensor& x) const;
-    at::Tensor graph_layer(const at::Tensor& x, const std::string& name, const at::Tensor& sums) const;
     at::Tensor finished(const at::Tensor& poses) const;
+    at::Tensor graph_layer(const at::Tensor& x, const std::string& name, const at::Tensor& sums) const;
 
     GeneratorSettings settings_;
     WeightStore weights_;

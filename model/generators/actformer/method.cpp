@@ -1,12 +1,10 @@
 #include "model/generators/actformer/method.hpp"
 
-#include <optional>
-
+#include "model/generators/actformer/discriminator.hpp"
+#include "model/generators/actformer/generator.hpp"
 #include "model/generators/actformer/layers.hpp"
 #include "model/generators/adversarial/learner.hpp"
 #include "model/generators/adversarial/maker.hpp"
-#include "model/nn/module_arrays.hpp"
-#include "model/train/training.hpp"
 
 namespace actformer::model {
 namespace {
@@ -34,39 +32,15 @@ std::vector<NetworkSummary> networks(const Config& config, const MotionSpec& spe
 }
 
 std::unique_ptr<Learner> learner(const Config& config, const MotionSpec& spec, const LearnerSetup& setup) {
-    return std::make_unique<ActformerLearner>(config, generator_of(config, spec),
-                                              discriminator_of(config, spec), setup);
+    auto networks = gan_networks<Generator, Discriminator>(gan_settings(config), generator_of(config, spec),
+                                                           discriminator_of(config, spec), setup.device);
+    return std::make_unique<GanLearner>(config, spec, std::move(networks), setup);
 }
-
-class ActformerMaker : public Maker {
-  public:
-    ActformerMaker(const Config& config, const MotionSpec& spec, const std::vector<Array>& weights,
-                   const std::string& device)
-        : generator_(generator_of(config, spec), 0) {
-        load_arrays(generator_, "", weights, spec.where);
-        generator_.to(torch_device(device));
-        generator_.eval();
-    }
-
-    std::uint32_t most_frames() const override { return generator_.settings().frames; }
-    std::uint32_t batch() const override { return MotionMaker::chunk; }
-
-    std::vector<float> make(std::uint64_t seed, std::uint32_t label, std::uint32_t index,
-                            std::uint32_t frames) override {
-        if (!maker_ || maker_->seed() != seed) maker_.emplace(generator_, seed);
-        const auto motions = maker_->make(label, index, frames);
-        const auto* first = motions.data_ptr<float>();
-        return {first, first + motions.numel()};
-    }
-
-  private:
-    Generator generator_;
-    std::optional<MotionMaker> maker_;
-};
 
 std::unique_ptr<Maker> maker(const Config& config, const MotionSpec& spec, const std::vector<Array>& weights,
                              const std::string& device) {
-    return std::make_unique<ActformerMaker>(config, spec, weights, device);
+    const auto settings = generator_of(config, spec);
+    return gan_maker(std::make_shared<Generator>(settings, 0), settings.frames, weights, spec.where, device);
 }
 
 }  // namespace

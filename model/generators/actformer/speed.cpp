@@ -5,6 +5,8 @@
 #include <functional>
 
 #include "model/cpu/layer_clock.hpp"
+#include "model/generators/actformer/discriminator.hpp"
+#include "model/generators/actformer/generator.hpp"
 #include "model/generators/adversarial/gan.hpp"
 #include "model/generators/adversarial/maker.hpp"
 #include "model/nn/blas.hpp"
@@ -67,7 +69,9 @@ SpeedTest::Parts::Parts(const SpeedRequest& wanted)
                                    wanted.classes, "speed")),
       discriminator(discriminator_settings(presets(), ingest::Representation::limb, ingest::ntu25(),
                                            wanted.persons, wanted.classes, "speed")),
-      gan(settings_of(wanted), generator, discriminator, at::kCPU, processes),
+      gan(settings_of(wanted),
+          gan_networks<Generator, Discriminator>(settings_of(wanted), generator, discriminator, at::kCPU),
+          at::kCPU, processes),
       maker(gan.generator(), 0),
       real(at::randn({wanted.batch, generator.numbers() * wanted.persons, wanted.frames, generator.nodes()})),
       labels(at::randint(wanted.classes, {wanted.batch}, at::kLong)) {}

@@ -11,16 +11,6 @@
 namespace actformer::model {
 namespace {
 
-/// Seeds of their own for what is random.
-constexpr std::uint64_t for_latents = 0, for_discriminator = 1;
-
-template <typename Network, typename Settings>
-std::shared_ptr<Network> network_of(const Settings& settings, std::uint64_t seed, const at::Device& device) {
-    auto network = std::make_shared<Network>(settings, seed);
-    network->to(device);
-    return network;
-}
-
 at::Tensor discriminator_loss(Loss loss, const at::Tensor& real, const at::Tensor& fake) {
     if (loss == Loss::wasserstein) return fake.mean() - real.mean();
     return at::relu(1 - real).mean() + at::relu(1 + fake).mean();
@@ -28,32 +18,31 @@ at::Tensor discriminator_loss(Loss loss, const at::Tensor& real, const at::Tenso
 
 }  // namespace
 
-Gan::Gan(const GanSettings& settings, const GeneratorSettings& generator,
-         const DiscriminatorSettings& discriminator, const at::Device& device, const Processes& processes)
+Gan::Gan(const GanSettings& settings, GanNetworks networks, const at::Device& device,
+         const Processes& processes)
     : settings_(settings),
       device_(device),
       processes_(processes),
-      prior_(generator.prior, step_seed(settings.seed, for_latents)),
-      generator_(network_of<Generator>(generator, settings.seed, device)),
-      ema_(generator_),
-      discriminator_(
-          network_of<Discriminator>(discriminator, step_seed(settings.seed, for_discriminator), device)),
-      generator_parameters_(generator_->parameters(), 1),
-      discriminator_parameters_(discriminator_->parameters(), 3),
+      networks_(std::move(networks)),
+      prior_(networks_.generator->prior(), step_seed(settings.seed, latents_part)),
+      generator_parameters_(networks_.generator->parameters(), 1),
+      discriminator_parameters_(networks_.discriminator->parameters(), 3),
       generator_adam_(generator_parameters_, settings.generator_adam()),
       discriminator_adam_(discriminator_parameters_, settings.discriminator_adam()),
       sums_(at::zeros({4}, at::TensorOptions(at::kDouble).device(device))) {
-    if (settings.average > 0) {
-        ema_ = network_of<Generator>(generator, settings.seed, device);
-        ema_parameters_.emplace(ema_->parameters());
-    }
+    if (networks_.ema) ema_parameters_.emplace(networks_.ema->parameters());
     share(0);
 }
 
 at::Tensor Gan::latent(const at::Tensor& labels, std::uint64_t draw) {
     const auto first = static_cast<std::uint64_t>(processes_.place().rank * labels.size(0));
-    const auto drawn = prior_.draw(draw, labels.size(0), settings_.frames, first);
+    const auto frames = networks_.generator->latent_frames(settings_.frames);
+    const auto drawn = prior_.draw(draw, labels.size(0), frames, first);
     return device_.is_cpu() ? drawn : drawn.pin_memory().to(device_, at::kFloat, /*non_blocking=*/true);
+}
+
+at::Tensor Gan::fake(const at::Tensor& latent, const at::Tensor& labels) {
+    return networks_.generator->generate(latent, labels, settings_.frames);
 }
 
 void Gan::step_discriminator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw) {
@@ -64,9 +53,10 @@ void Gan::step_discriminator(const at::Tensor& real, const at::Tensor& labels, s
         const Autocast reduced(settings_.bf16);
         {
             const at::NoGradGuard no_gradients;
-            fake = generator_->forward(z, labels).to(at::kFloat);
+            fake = this->fake(z, labels).to(at::kFloat);
         }
-        scores = discriminator_->forward(at::cat({real, fake}), at::cat({labels, labels})).to(at::kFloat);
+        scores =
+            networks_.discriminator->forward(at::cat({real, fake}), at::cat({labels, labels})).to(at::kFloat);
     }
     const auto of = scores.chunk(2);
     const auto loss = discriminator_loss(settings_.loss, of[0], of[1]);
@@ -85,7 +75,7 @@ void Gan::step_generator(const at::Tensor& labels, std::uint64_t draw) {
     at::Tensor scores;
     {
         const Autocast reduced(settings_.bf16);
-        scores = discriminator_->forward(generator_->forward(z, labels), labels).to(at::kFloat);
+        scores = networks_.discriminator->forward(fake(z, labels), labels).to(at::kFloat);
     }
     const auto loss = -scores.mean();
     loss.backward();
@@ -100,16 +90,13 @@ void Gan::step_generator(const at::Tensor& labels, std::uint64_t draw) {
     ema_parameters_->values().lerp_(generator_parameters_.values(), 1 - decay);
 }
 
-/// The EMA has singular vectors of its own, close to those of the last weights: a few power iterations from there find them.
-Generator& Gan::ema() {
+GanGenerator& Gan::ema() {
+    if (!networks_.ema) return generator();
     const at::NoGradGuard no_gradients;
-    if (ema_parameters_) {
-        const auto from = generator_->named_buffers();
-        for (auto& item : ema_->named_buffers()) item.value().copy_(from[item.key()]);
-        for (const auto& weight : generator_weights(ema_->settings()))
-            for (int i = 0; weight.spectral && i < 10; ++i) ema_->weights().normalised(weight.name, true);
-    }
-    return *ema_;
+    const auto from = generator().named_buffers();
+    for (auto& item : networks_.ema->named_buffers()) item.value().copy_(from[item.key()]);
+    networks_.ema->find_buffers(prior_, settings_.frames);
+    return *networks_.ema;
 }
 
 bool Gan::finite() {
@@ -127,8 +114,8 @@ std::vector<at::Tensor> Gan::optimiser_state() {
 }
 
 std::vector<Array> Gan::state() {
-    auto all = arrays_of(*generator_, "generator.");
-    for (auto& array : arrays_of(*discriminator_, "discriminator.")) all.push_back(std::move(array));
+    auto all = arrays_of(generator(), "generator.");
+    for (auto& array : arrays_of(*networks_.discriminator, "discriminator.")) all.push_back(std::move(array));
     std::size_t i = 0;
     for (const auto& tensor : optimiser_state())
         all.push_back(array_of(fmt::format("state.{}", i++), tensor));
@@ -137,8 +124,8 @@ std::vector<Array> Gan::state() {
 
 void Gan::load(const std::vector<Array>& arrays, std::uint64_t steps, const std::string& where) {
     count(steps);
-    load_arrays(*generator_, "generator.", arrays, where);
-    load_arrays(*discriminator_, "discriminator.", arrays, where);
+    load_arrays(generator(), "generator.", arrays, where);
+    load_arrays(*networks_.discriminator, "discriminator.", arrays, where);
     std::size_t i = 0;
     for (const auto& tensor : optimiser_state()) {
         const auto name = fmt::format("state.{}", i++);
@@ -156,8 +143,8 @@ void Gan::share(std::uint64_t steps) {
     const at::NoGradGuard no_gradients;
     processes_.share(generator_parameters_.values());
     processes_.share(discriminator_parameters_.values());
-    for (auto& tensor : generator_->buffers()) processes_.share(tensor);
-    for (auto& tensor : discriminator_->buffers()) processes_.share(tensor);
+    for (auto& tensor : generator().buffers()) processes_.share(tensor);
+    for (auto& tensor : networks_.discriminator->buffers()) processes_.share(tensor);
     for (auto& tensor : optimiser_state()) processes_.share(tensor);
 }
 

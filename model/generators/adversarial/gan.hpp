@@ -6,9 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "model/generators/actformer/discriminator.hpp"
-#include "model/generators/actformer/generator.hpp"
 #include "model/generators/adversarial/gan_settings.hpp"
+#include "model/generators/adversarial/networks.hpp"
 #include "model/generators/adversarial/prior.hpp"
 #include "model/nn/adam.hpp"
 #include "model/nn/array.hpp"
@@ -18,9 +17,9 @@ namespace actformer::model {
 
 class Gan {
   public:
-    /// `processes` must outlive it. Every process begins with the weights of rank 0.
-    Gan(const GanSettings& settings, const GeneratorSettings& generator,
-        const DiscriminatorSettings& discriminator, const at::Device& device, const Processes& processes);
+    /// Networks on `device`. `processes` must outlive it. Every process begins with the weights of rank 0.
+    Gan(const GanSettings& settings, GanNetworks networks, const at::Device& device,
+        const Processes& processes);
 
     /// One step of the discriminator: real (batch, P*D, T, K) against as many fake motions of the same labels (batch) int64. What is drawn is a function of the seed and `draw`.
     void step_discriminator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw);
@@ -33,10 +32,10 @@ class Gan {
     /// on the device, means over the processes.
     at::Tensor& sums() { return sums_; }
 
-    Generator& generator() { return *generator_; }
+    GanGenerator& generator() { return *networks_.generator; }
 
     /// The generator with the EMA of its weights; the generator itself where none is kept.
-    Generator& ema();
+    GanGenerator& ema();
 
     bool finite();  ///< every weight of both networks
 
@@ -49,15 +48,15 @@ class Gan {
 
   private:
     void count(std::uint64_t steps);
+    at::Tensor fake(const at::Tensor& latent, const at::Tensor& labels);
     at::Tensor latent(const at::Tensor& labels, std::uint64_t draw);
     std::vector<at::Tensor> optimiser_state();
 
     GanSettings settings_;
     at::Device device_;
     const Processes& processes_;
+    GanNetworks networks_;
     Prior prior_;
-    std::shared_ptr<Generator> generator_, ema_;
-    std::shared_ptr<Discriminator> discriminator_;
     FlatParameters generator_parameters_, discriminator_parameters_;
     std::optional<FlatParameters> ema_parameters_;  ///< where an EMA is kept
     Adam generator_adam_, discriminator_adam_;

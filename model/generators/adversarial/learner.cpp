@@ -19,34 +19,34 @@ kernels::SamplerOptions sampling(const Config& config, const Place& place) {
 
 }  // namespace
 
-ActformerLearner::ActformerLearner(const Config& config, const GeneratorSettings& generator,
-                                   const DiscriminatorSettings& discriminator, const LearnerSetup& setup)
+GanLearner::GanLearner(const Config& config, const MotionSpec& spec, GanNetworks networks,
+                       const LearnerSetup& setup)
     : settings_(gan_settings(config)),
-      motions_(discriminator),
+      channels_(std::int64_t{spec.numbers()} * spec.persons),
+      nodes_(spec.nodes()),
       batch_(batch_of(config)),
       device_(setup.device),
       feed_(setup.clips, sampling(config, setup.processes.place()), batch_, settings_.frames),
-      gan_(settings_, generator, discriminator, setup.device, setup.processes) {}
+      gan_(settings_, std::move(networks), setup.device, setup.processes) {}
 
-std::uint64_t ActformerLearner::windows_a_step() const {
+std::uint64_t GanLearner::windows_a_step() const {
     return std::uint64_t{batch_} * settings_.discriminator_steps;
 }
 
-void ActformerLearner::step(std::uint64_t step, double rate_share) {
+void GanLearner::step(std::uint64_t step, double rate_share) {
     const auto steps = std::uint64_t{settings_.discriminator_steps};
     gan_.set_rate_share(rate_share);
     at::Tensor labels;
     for (std::uint64_t i = 0; i < steps; ++i) {
         const auto windows = feed_.batch(step * steps + i);
         labels = labels_of(windows, device_);
-        const auto real = values_of(windows, std::int64_t{motions_.numbers} * motions_.persons,
-                                    settings_.frames, motions_.nodes(), device_);
+        const auto real = values_of(windows, channels_, settings_.frames, nodes_, device_);
         gan_.step_discriminator(real, labels, step * (steps + 1) + i);
     }
     gan_.step_generator(labels, step * (steps + 1) + steps);
 }
 
-Measures ActformerLearner::losses(const std::vector<double>& sums, std::uint64_t steps) const {
+Measures GanLearner::losses(const std::vector<double>& sums, std::uint64_t steps) const {
     const auto g = static_cast<double>(steps), d = g * settings_.discriminator_steps;
     return {{"discriminator_loss", "D", sums[0] / d},
             {"generator_loss", "G", sums[3] / g},
@@ -54,17 +54,17 @@ Measures ActformerLearner::losses(const std::vector<double>& sums, std::uint64_t
             {"fake_score", "fake", sums[2] / d}};
 }
 
-std::string ActformerLearner::trouble(const Measures& losses) const {
+std::string GanLearner::trouble(const Measures& losses) const {
     return collapse_in({value_of(losses, "discriminator_loss"), value_of(losses, "real_score"),
                         value_of(losses, "fake_score"), value_of(losses, "generator_loss")},
                        settings_.loss);
 }
 
-std::vector<Array> ActformerLearner::weights() {
+std::vector<Array> GanLearner::weights() {
     return arrays_of(gan_.generator(), "");
 }
 
-std::vector<Array> ActformerLearner::ema_weights() {
+std::vector<Array> GanLearner::ema_weights() {
     return arrays_of(gan_.ema(), "");
 }
 

@@ -1,17 +1,18 @@
-// ActFormer in the training loop. Includes torch headers.
+// A GAN in the training loop. Includes torch headers.
 #pragma once
 
 #include "model/generators/adversarial/gan.hpp"
+#include "model/generators/method.hpp"
 #include "model/train/learner.hpp"
 #include "model/train/window_feed.hpp"
 
 namespace actformer::model {
 
 /// A step is one of the generator's behind `discriminator_steps` of the discriminator's, each with windows of its own.
-class ActformerLearner : public Learner {
+class GanLearner : public Learner {
   public:
-    ActformerLearner(const Config& config, const GeneratorSettings& generator,
-                     const DiscriminatorSettings& discriminator, const LearnerSetup& setup);
+    /// `config` holds gan_keys() and generator_keys(); networks for motions of `spec`, on the setup's device.
+    GanLearner(const Config& config, const MotionSpec& spec, GanNetworks networks, const LearnerSetup& setup);
 
     std::uint64_t windows_a_step() const override;
     void step(std::uint64_t step, double rate_share) override;
@@ -30,7 +31,7 @@ class ActformerLearner : public Learner {
 
   private:
     GanSettings settings_;
-    DiscriminatorSettings motions_;
+    std::int64_t channels_, nodes_;  ///< of motions
     std::uint32_t batch_;
     at::Device device_;
     RandomFeed feed_;

@@ -1,15 +1,17 @@
-// Motions out of a generator, each a function of the seed, its class and its number alone. Includes torch headers.
+// Motions out of a GAN's generator, each a function of the seed, its class and its number alone. Includes torch headers.
 #pragma once
 
-#include "model/generators/actformer/generator.hpp"
-#include "model/generators/adversarial/prior.hpp"
+#include <memory>
+
+#include "model/generators/adversarial/networks.hpp"
+#include "model/generators/method.hpp"
 
 namespace actformer::model {
 
 class MotionMaker {
   public:
     /// `generator` must outlive the maker.
-    MotionMaker(Generator& generator, std::uint64_t seed);
+    MotionMaker(GanGenerator& generator, std::uint64_t seed);
 
     /// Motions that go through the network together; see Maker::batch().
     static constexpr std::uint32_t chunk = 25;
@@ -21,9 +23,15 @@ class MotionMaker {
     std::uint64_t seed() const { return seed_; }
 
   private:
-    Generator& generator_;
+    GanGenerator& generator_;
     std::uint64_t seed_;
     Prior prior_;
 };
+
+/// A maker of at most `most_frames` frames: gives `generator` its `weights` and moves it to `device`. Throws Error, beginning with
+/// `where`, for weights that are missing or of another shape.
+std::unique_ptr<Maker> gan_maker(std::shared_ptr<GanGenerator> generator, std::uint32_t most_frames,
+                                 const std::vector<Array>& weights, const std::string& where,
+                                 const std::string& device);
 
 }  // namespace actformer::model
