@@ -1,4 +1,4 @@
-// Graph convolutions with weights of their own for every node.
+// Graph convolutions, their weights shared by the nodes or every node's own.
 #include "model/cpu/kernel_support.hpp"
 #include "model/cpu/node_kernels.hpp"
 
@@ -108,6 +108,7 @@ void begin_outputs(const NodeShape& shape, const T* bias, T* y) {
 
 template <typename T>
 void leaky(T* y, std::int64_t count, T leak) {
+    if (leak == T(1)) return;
 #pragma omp simd
     for (std::int64_t i = 0; i < count; ++i) y[i] = y[i] > 0 ? y[i] : y[i] * leak;
 }
@@ -267,25 +268,20 @@ class Backward {
     std::vector<const T*> rows_;
 };
 
-/// The threads' weight sums (groups, out, padded window) added up into the weight's own layout.
+/// The threads' weight sums (groups, out, padded window) added up into the weight's own layout, zeros so far. Groups of several
+/// nodes may share their weights.
 template <typename T>
 void write_weights(const NodeShape& shape, const NodeSums& sums, const std::vector<T*>& own, T* to) {
     const auto wide = panel_padded<T>(shape.window());
-#pragma omp for schedule(static) collapse(2)
-    for (std::size_t g = 0; g < sums.groups.size(); ++g)
-        for (std::int64_t o = 0; o < shape.out; ++o) {
+#pragma omp for schedule(static)
+    for (std::int64_t o = 0; o < shape.out; ++o)
+        for (std::size_t g = 0; g < sums.groups.size(); ++g) {
             const auto& group = sums.groups[g];
             T* row = to + group.input * shape.node_step + group.hop * shape.hop_step + o * shape.row_step;
             const auto at = (static_cast<std::int64_t>(g) * shape.out + o) * wide;
-            bool first = true;
-            for (const T* sum : own) {
-                if (!sum) continue;  // fewer threads came than were asked for
-                if (first)
-                    std::copy_n(sum + at, shape.window(), row);
-                else
-                    add_row(sum + at, shape.window(), row);
-                first = false;
-            }
+            for (const T* sum : own)
+                if (sum)
+                    add_row(sum + at, shape.window(), row);  // fewer threads may have come than asked for
         }
 }
 

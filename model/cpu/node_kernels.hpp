@@ -47,6 +47,14 @@ struct NodeShape {
         shape.node_step = hops * shape.hop_step;
         return shape;
     }
+    /// The same layer with weights (out, hops, taps, in), shared by all nodes.
+    NodeShape with_weights_by_hop(std::int64_t hops) const {
+        auto shape = *this;
+        shape.node_step = 0;
+        shape.hop_step = window();
+        shape.row_step = hops * window();
+        return shape;
+    }
     /// The same layer with weights (out, in_nodes, taps, in): one convolution over all nodes, of one hop.
     NodeShape with_weights_by_output() const {
         auto shape = *this;
@@ -65,7 +73,8 @@ struct NodeShape {
 };
 
 /// y (samples, out_nodes, padded_out_frames, out) = leaky(bias + sums of x's convolutions), x (samples, in_nodes,
-/// padded_frames, in), bias (out_nodes, out) or null; a negative number is multiplied by `leak`.
+/// padded_frames, in), bias (out_nodes, out) or null; a negative number is multiplied by `leak`, 1 for
+/// a linear layer.
 template <typename T>
 void node_forward(const NodeShape& shape, const NodeSums& sums, const T* x, const T* weight, const T* bias,
                   T leak, T* y, int threads);

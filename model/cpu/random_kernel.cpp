@@ -133,7 +133,7 @@ void whole_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t s
 }
 
 void correlate(const float* normals, const float* factors, std::int64_t draws, std::int64_t frames,
-               std::int64_t channels, float* to, int threads) {
+               std::int64_t channels, bool triangular, float* to, int threads) {
     constexpr std::int64_t side_by_side = 4;  // draws that share what is read of the factors
     const auto draw = frames * channels;
 #pragma omp parallel for num_threads(threads) schedule(static)
@@ -144,7 +144,7 @@ void correlate(const float* normals, const float* factors, std::int64_t draws, s
             for (std::int64_t c = 0; c < channels; c += lanes<float>) {
                 const auto here = std::min<std::int64_t>(lanes<float>, channels - c);
                 Floats sums[side_by_side] = {};
-                for (std::int64_t s = 0; s <= t; ++s) {
+                for (std::int64_t s = 0; s < (triangular ? t + 1 : frames); ++s) {
                     const auto factor = load_part(factors + (t * frames + s) * channels + c, here);
                     for (std::int64_t i = 0; i < side_by_side; ++i)
                         sums[i] += factor * load_part(from[i] + s * channels + c, here);

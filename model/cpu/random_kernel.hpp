@@ -47,9 +47,10 @@ inline std::int64_t words_for(std::int64_t columns) {
 /// The bits of `words` words of the batch's sample `sample`: set for what stays.
 void draw_kept(const Dropout& dropout, std::int64_t sample, std::int64_t words, std::uint16_t* kept);
 
-/// Every channel's numbers over the frames times its triangular factor: to (draws, frames, channels) at (n, t, c) = the sum
-/// over s <= t of factors (frames, frames, channels) at (t, s, c) times normals (draws, frames, channels) at (n, s, c).
+/// Every channel's numbers over the frames times its factor: to (draws, frames, channels) at (n, t, c) = the sum over s, or
+/// over s <= t where factors are `triangular`, of factors (frames, frames, channels) at (t, s, c) times normals (draws, frames,
+/// channels) at (n, s, c).
 void correlate(const float* normals, const float* factors, std::int64_t draws, std::int64_t frames,
-               std::int64_t channels, float* to, int threads);
+               std::int64_t channels, bool triangular, float* to, int threads);
 
 }  // namespace actformer::model::cpu

@@ -253,6 +253,7 @@ struct MotionInput : Function<MotionInput> {
 
 const char* convolution_name(const cpu::NodeShape& shape) {
     if (shape.out_nodes == 1) return "convolution over all nodes";
+    if (shape.out_nodes > shape.in_nodes) return "graph convolution, refining";
     if (shape.stride == 1) return "graph convolution, all frames";
     if (shape.in_nodes == shape.out_nodes) return "graph convolution, coarse nodes";
     return "graph convolution, coarsening";

@@ -20,6 +20,15 @@ at::Tensor exact_covariance(const PriorSettings& settings, std::int64_t channel,
     return (-((t.unsqueeze(1) - t.unsqueeze(0)) / length).square()).exp();
 }
 
+at::Tensor triangular_root(const at::Tensor& covariances) {
+    return at::linalg_cholesky(covariances + jitter * at::eye(covariances.size(1), at::kDouble));
+}
+
+at::Tensor symmetric_root(const at::Tensor& covariances) {
+    const auto [values, vectors] = at::linalg_eigh(covariances);
+    return (vectors * values.clamp_min(0).sqrt().unsqueeze(1)).matmul(vectors.transpose(1, 2));
+}
+
 }  // namespace
 
 Prior::Prior(const PriorSettings& settings, std::uint64_t seed) : settings_(settings), seed_(seed) {}
@@ -36,8 +45,9 @@ at::Tensor Prior::factors(std::int64_t frames) const {
     std::vector<at::Tensor> covariances;
     for (std::int64_t c = 0; c < settings_.channels; ++c)
         covariances.push_back(exact_covariance(settings_, c, frames));
-    const auto smoothed = at::stack(covariances) + jitter * at::eye(frames, at::kDouble);
-    return factors = at::linalg_cholesky(smoothed).permute({1, 2, 0}).to(at::kFloat).contiguous();
+    const auto all = at::stack(covariances);
+    const auto roots = settings_.root == PriorRoot::symmetric ? symmetric_root(all) : triangular_root(all);
+    return factors = roots.permute({1, 2, 0}).to(at::kFloat).contiguous();
 }
 
 at::Tensor Prior::draw(std::uint64_t index, std::int64_t count, std::int64_t frames,
@@ -50,10 +60,16 @@ at::Tensor Prior::draw(std::uint64_t index, std::int64_t count, std::int64_t fra
     cpu::normal_numbers({seed_, index, for_latents}, first_sample, count, streams * drawn * channels,
                         normals.data_ptr<float>(), at::get_num_threads());
     if (!gp) return normals.expand({count, streams, frames, channels}).contiguous();
+    return correlated(normals);
+}
+
+at::Tensor Prior::correlated(const at::Tensor& normals) const {
+    const auto frames = normals.size(2), channels = normals.size(3);
     const auto factors = this->factors(frames);
     auto latent = at::empty_like(normals);
-    cpu::correlate(normals.data_ptr<float>(), factors.data_ptr<float>(), count * streams, frames, channels,
-                   latent.data_ptr<float>(), at::get_num_threads());
+    cpu::correlate(normals.data_ptr<float>(), factors.data_ptr<float>(), normals.size(0) * normals.size(1),
+                   frames, channels, settings_.root == PriorRoot::triangular, latent.data_ptr<float>(),
+                   at::get_num_threads());
     return latent;
 }
 

@@ -24,6 +24,9 @@ class Prior {
     at::Tensor draw(std::uint64_t index, std::int64_t count, std::int64_t frames,
                     std::uint64_t first_sample = 0) const;
 
+    /// What a draw makes of normal numbers (count, streams, frames, channels): Gaussian processes over the frames.
+    at::Tensor correlated(const at::Tensor& normals) const;
+
     /// Labels (count) int64, every class as likely, by the same rules.
     at::Tensor labels(std::uint64_t index, std::int64_t count, std::int64_t classes,
                       std::uint64_t first_sample = 0) const;
@@ -38,7 +41,7 @@ class Prior {
     std::uint64_t seed_;
     mutable std::mutex mutex_;
     mutable std::map<std::int64_t, at::Tensor>
-        factors_;  ///< by frames: (frames, frames, channels), lower triangles
+        factors_;  ///< by frames: (frames, frames, channels), roots of the covariances
 };
 
 }  // namespace actformer::model

@@ -10,11 +10,18 @@ enum class PriorKind {
     gaussian  ///< one vector, repeated over the frames
 };
 
+/// What turns normal numbers into Gaussian processes. The covariance is the same, the motions of a seed are others.
+enum class PriorRoot {
+    triangular,  ///< Cholesky's factor, of the covariance with 1e-6 on its diagonal
+    symmetric    ///< the only symmetric root
+};
+
 struct PriorSettings {
     PriorKind kind = PriorKind::gp;
     std::uint32_t channels = 120;
     double length_scale = 100;  ///< frames, of the last channel; channel c has (c+1)/channels of it
     std::uint32_t streams = 1;  ///< draws a motion: 1, or one a person
+    PriorRoot root = PriorRoot::triangular;
 
     bool operator==(const PriorSettings&) const = default;
 };

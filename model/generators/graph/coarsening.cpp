@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace actformer::model {
 namespace {
@@ -61,15 +62,20 @@ bool differ(double a, double b) {
     return std::abs(a - b) > 1e-9 * (1 + std::abs(a) + std::abs(b));
 }
 
+Nodes sorted(Nodes nodes) {
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+}
+
 struct Choice {
     Worth worth{};
     Nodes nodes;
 
     /// Sets of one size: their sums stand for their means.
-    bool better_than(const Choice& other) const {
+    bool better_than(const Choice& other, Mirror mirror) const {
         for (std::size_t i = 0; i < worth.size(); ++i)
             if (differ(worth[i], other.worth[i])) return worth[i] > other.worth[i];
-        return false;
+        return mirror == Mirror::first && sorted(nodes) < sorted(other.nodes);
     }
 };
 
@@ -80,7 +86,8 @@ using BySize = std::map<std::size_t, Choice>;
 /// own. Sums grow alike on both sides of a comparison, so the best of a whole is made of the bests of its parts.
 class SetSearch {
   public:
-    SetSearch(const NodeGraph& graph, const std::vector<Worth>& worths) : graph_(graph), worths_(worths) {}
+    SetSearch(const NodeGraph& graph, const std::vector<Worth>& worths, Mirror mirror)
+        : graph_(graph), worths_(worths), mirror_(mirror) {}
 
     const BySize& best(const Nodes& nodes) {
         const auto known = memo_.find(nodes);
@@ -89,10 +96,10 @@ class SetSearch {
     }
 
   private:
-    static void offer(BySize& to, Choice choice) {
+    void offer(BySize& to, Choice choice) const {
         const auto size = choice.nodes.size();
         const auto found = to.find(size);
-        if (found == to.end() || choice.better_than(found->second)) to[size] = std::move(choice);
+        if (found == to.end() || choice.better_than(found->second, mirror_)) to[size] = std::move(choice);
     }
 
     Nodes neighbours_within(std::uint32_t node, const Nodes& nodes) const {
@@ -117,7 +124,7 @@ class SetSearch {
         return out;
     }
 
-    static BySize joined(const BySize& a, const BySize& b) {
+    BySize joined(const BySize& a, const BySize& b) const {
         BySize out;
         for (const auto& [size_a, one] : a)
             for (const auto& [size_b, other] : b) {
@@ -149,6 +156,7 @@ class SetSearch {
 
     const NodeGraph& graph_;
     const std::vector<Worth>& worths_;
+    Mirror mirror_;
     std::map<Nodes, BySize> memo_;
 };
 
@@ -193,17 +201,15 @@ std::vector<std::vector<int>> path_lengths(const NodeGraph& graph) {
     return lengths;
 }
 
-std::vector<std::uint32_t> kept_nodes(const NodeGraph& graph) {
+std::vector<std::uint32_t> kept_nodes(const NodeGraph& graph, Mirror mirror) {
     if (graph.nodes() < 2) return all_nodes(graph);
     const auto worths = worths_of(graph);
-    SetSearch search(graph, worths);
+    SetSearch search(graph, worths, mirror);
     // Degrees are positive, so the set of the largest degree sum can take no further node: it is maximal.
     const Choice* chosen = nullptr;
     for (const auto& [size, choice] : search.best(all_nodes(graph)))
         if (size > 0 && (!chosen || beats(choice, *chosen))) chosen = &choice;
-    auto nodes = chosen->nodes;
-    std::sort(nodes.begin(), nodes.end());
-    return nodes;
+    return sorted(chosen->nodes);
 }
 
 NodeGraph coarsened(const NodeGraph& graph, const std::vector<std::uint32_t>& kept) {
@@ -249,6 +255,26 @@ HopMatrix hop_matrix(const NodeGraph& graph, const std::vector<std::uint32_t>& k
     return matrix;
 }
 
+HopMatrix radial_hop_matrix(const NodeGraph& graph, const std::vector<std::uint32_t>& kept) {
+    const auto worths = worths_of(graph);
+    std::uint32_t centre = 0;
+    for (std::uint32_t i = 1; i < graph.nodes(); ++i)
+        if (differ(worths[i][1], worths[centre][1]) && worths[i][1] > worths[centre][1]) centre = i;
+    const auto far = path_lengths(graph)[centre];
+    auto matrix = hop_matrix(graph, kept);
+    const auto size = std::size_t{matrix.outputs} * matrix.inputs;
+    matrix.hops = 3;
+    matrix.values.resize(3 * size, 0);
+    for (std::size_t row = 0; row < matrix.outputs; ++row)
+        for (std::size_t column = 0; column < matrix.inputs; ++column) {
+            const auto output = kept[row];
+            const bool inward = std::pair(far[column], column) < std::pair(far[output], std::size_t{output});
+            const auto at = size + row * matrix.inputs + column;
+            if (!inward) std::swap(matrix.values[at], matrix.values[at + size]);
+        }
+    return matrix;
+}
+
 HopMatrix transposed(const HopMatrix& matrix) {
     HopMatrix out{matrix.hops, matrix.inputs, matrix.outputs, {}};
     for (std::size_t hop = 0; hop < matrix.hops; ++hop)
@@ -258,12 +284,12 @@ HopMatrix transposed(const HopMatrix& matrix) {
     return out;
 }
 
-SkeletonLevels skeleton_levels(const std::vector<int>& parents) {
+SkeletonLevels skeleton_levels(const std::vector<int>& parents, Mirror mirror) {
     SkeletonLevels levels;
     levels.fine = graph_of_tree(parents);
-    levels.middle_kept = kept_nodes(levels.fine);
+    levels.middle_kept = kept_nodes(levels.fine, mirror);
     levels.middle = coarsened(levels.fine, levels.middle_kept);
-    levels.coarse_kept = kept_nodes(levels.middle);
+    levels.coarse_kept = kept_nodes(levels.middle, mirror);
     levels.coarse = coarsened(levels.middle, levels.coarse_kept);
     return levels;
 }

@@ -77,6 +77,23 @@ TEST(Prior, DrawsHaveTheCovarianceOfTheirChannel) {
     EXPECT_LT(across.abs().max().item<double>(), 0.112);
 }
 
+TEST(Prior, TheSymmetricRootIsSymmetricAndGivesTheCovariance) {
+    auto s = settings(6);
+    s.length_scale = 5;
+    s.root = PriorRoot::symmetric;
+    const Prior prior(s, 2);
+    constexpr std::int64_t frames = 7;
+    // Unit vectors in, rows of the root out: (frame of the input, frame of the output, channel).
+    const auto units =
+        at::eye(frames).view({frames, 1, frames, 1}).expand({frames, 1, frames, 6}).contiguous();
+    const auto root = prior.correlated(units).squeeze(1).to(at::kDouble);
+    for (std::int64_t c = 0; c < 6; ++c) {
+        const auto one = root.select(2, c);
+        EXPECT_LT((one - one.t()).abs().max().item<double>(), 1e-6) << c;
+        EXPECT_LT((one.mm(one) - Prior::covariance(s, c, frames)).abs().max().item<double>(), 2e-6) << c;
+    }
+}
+
 TEST(Prior, CovarianceFallsWithTheChannelsLength) {
     const auto c = Prior::covariance(settings(120), 59, 8);  // a length of 50 frames
     EXPECT_DOUBLE_EQ(c[0][0].item<double>(), 1);

@@ -149,6 +149,27 @@ TEST(Coarsening, HopMatricesHaveTheirCountsUnderTheRoot) {
     EXPECT_FLOAT_EQ(transposed(leaves).at(1, 0, 2), leaves.at(1, 2, 0));
 }
 
+TEST(Coarsening, RadialHopsPartNeighboursByTheirDistanceToTheCentre) {
+    // A chain of five, its centre 2: node 1 is nearer than 0, node 3 nearer than 4.
+    const auto chain = graph_of_tree({-1, 0, 1, 2, 3});
+    const auto whole = hop_matrix(chain, all_nodes(chain)),
+               parts = radial_hop_matrix(chain, all_nodes(chain));
+    ASSERT_EQ(parts.hops, 3U);
+    for (std::size_t i = 0; i < 5; ++i)
+        for (std::size_t j = 0; j < 5; ++j) {
+            EXPECT_EQ(parts.at(0, i, j), whole.at(0, i, j));
+            EXPECT_EQ(parts.at(1, i, j) + parts.at(2, i, j), whole.at(1, i, j));
+            if (whole.at(1, i, j) == 0) continue;
+            const bool inward = std::abs(static_cast<int>(j) - 2) < std::abs(static_cast<int>(i) - 2);
+            EXPECT_EQ(parts.at(inward ? 2 : 1, i, j), 0) << i << " from " << j;
+        }
+    // Two nodes measure alike: the smaller index is the centre.
+    const auto pair = graph_of_tree({-1, 0});
+    const auto two = radial_hop_matrix(pair, all_nodes(pair));
+    EXPECT_GT(two.at(1, 1, 0), 0) << "from the centre";
+    EXPECT_GT(two.at(2, 0, 1), 0);
+}
+
 TEST(Coarsening, TakesSkeletonsWithHands) {
     // A spine, two arms of four joints and five fingers of four on each: many sets are equally good.
     std::vector<int> parents{-1, 0, 1, 2, 3};

@@ -1,0 +1,29 @@
+// Graph convolutions whose weights are shared by all nodes, on any device. Includes torch headers.
+#pragma once
+
+#include <ATen/ATen.h>
+
+#include <memory>
+
+#include "model/cpu/node_kernels.hpp"
+
+namespace actformer::model {
+
+/// The fixed sums of one convolution over nodes, for libtorch's operators and for kernels of our own.
+struct GraphSums {
+    at::Tensor matrix;  ///< (hops, out nodes, in nodes)
+    std::shared_ptr<const cpu::NodeSums> groups;
+};
+
+/// x (N, in nodes, padded frames, in), weight (out, hops, taps, in), bias (out nodes, out) or undefined -> (N, out nodes,
+/// frames with shape.out_padding zeros on either side, out), and its LeakyReLU; a `leak` of 1 leaves it linear. `fused` takes
+/// kernels of our own, on processors; else libtorch's operators, as matrix products.
+at::Tensor graph_convolution(const at::Tensor& x, const at::Tensor& weight, const at::Tensor& bias,
+                             const cpu::NodeShape& shape, const GraphSums& sums, double leak, bool fused);
+
+/// The same with one convolution over all nodes, weight (out, in nodes, taps, in), bias (out) -> (N, 1, frames, out).
+at::Tensor convolution_over_nodes(const at::Tensor& x, const at::Tensor& weight, const at::Tensor& bias,
+                                  const cpu::NodeShape& shape, const GraphSums& sums, double leak,
+                                  bool fused);
+
+}  // namespace actformer::model
