@@ -6,6 +6,7 @@
 #include "model/generators/actformer/method.hpp"
 #include "model/generators/action2motion/method.hpp"
 #include "model/generators/actor/method.hpp"
+#include "model/generators/csgn/method.hpp"
 #include "model/generators/generator_settings.hpp"
 #include "model/generators/method.hpp"
 #include "model/train/learner.hpp"
@@ -17,6 +18,7 @@ const std::vector<Method>& methods() {
         actformer_method(),
         action2motion::method(),
         actor_method(),
+        csgn_method(),
     };
     return all;
 }

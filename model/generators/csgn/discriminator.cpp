@@ -1,0 +1,71 @@
+#include "model/generators/csgn/discriminator.hpp"
+
+#include "base/error.hpp"
+#include "model/generators/csgn/sums.hpp"
+#include "model/generators/graph/motion_input.hpp"
+
+namespace actformer::model {
+namespace {
+
+constexpr double leak = 0.2;
+
+CsgnSettings checked(CsgnSettings settings) {
+    check(settings);
+    return settings;
+}
+
+/// Motions and their differences over time as the first layer takes them, (N, K, padding + T + padding, 2C).
+at::Tensor input(const at::Tensor& motion, std::int64_t padding, bool fused) {
+    if (fused) return fused_motion_input(motion.contiguous(), padding);
+    return at::constant_pad_nd(with_differences(motion).permute({0, 3, 2, 1}), {0, 0, padding, padding});
+}
+
+}  // namespace
+
+CsgnDiscriminator::CsgnDiscriminator(CsgnSettings settings, std::uint64_t seed, at::ScalarType type)
+    : settings_(checked(std::move(settings))),
+      layers_(discriminator_layers(settings_)),
+      weights_(*this, csgn_discriminator_weights(settings_), seed, type) {
+    for (const auto& level : layers_.levels) sums_.push_back(registered_sums(*this, level, type));
+    sums_.push_back(registered_sums(*this, layers_.last, type));
+}
+
+/// (N, features) of motions (N, C, T, K).
+at::Tensor CsgnDiscriminator::features(const at::Tensor& motion) const {
+    const bool fused = weights_.fused && motion.is_cpu();
+    const auto weight = [&](const GraphConvolution& layer) {
+        return weights_.normalised(layer.name + ".weight", is_training());
+    };
+    const auto n = motion.size(0);
+    auto frames = motion.size(2);
+    auto x = input(motion, layers_.levels.front().padding, fused);
+    for (std::size_t i = 0; i < layers_.levels.size(); ++i) {
+        const auto& level = layers_.levels[i];
+        const auto& next = i + 1 < layers_.levels.size() ? layers_.levels[i + 1] : layers_.last;
+        const auto shape = level.shape(n, frames, next.padding);
+        const auto bias =
+            i == 0 ? sums_[i].matrix.sum(2).t().matmul(weights_.at(level.name + ".bias")) : at::Tensor();
+        x = graph_convolution(x, weight(level), bias, shape, sums_[i], leak, fused);
+        frames = shape.out_frames();
+    }
+    return convolution_over_nodes(x, weight(layers_.last), weights_.at(layers_.last.name + ".bias"),
+                                  layers_.last.shape(n, frames, 0), sums_.back(), leak, fused)
+        .sum({1, 2});
+}
+
+at::Tensor CsgnDiscriminator::forward(const at::Tensor& motion, const at::Tensor& labels) {
+    if (motion.dim() != 4 || motion.size(1) != settings_.channels() || motion.size(3) != settings_.nodes() ||
+        labels.dim() != 1 || labels.size(0) != motion.size(0))
+        throw Error("the discriminator takes motions (N, {}, T, {}) and N labels", settings_.channels(),
+                    settings_.nodes());
+    if (motion.size(2) < csgn_fewest_frames)
+        throw Error("{} frames: the discriminator halves them four times and needs at least {}",
+                    motion.size(2), csgn_fewest_frames);
+    const auto found = features(motion);
+    const auto classes = weights_.normalised("classes.weight", is_training()).index_select(0, labels);
+    const auto score =
+        at::linear(found, weights_.normalised("score.weight", is_training()), weights_.at("score.bias"));
+    return score.squeeze(1) + (classes * found).sum(1);
+}
+
+}  // namespace actformer::model
