@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
 #include <optional>
+#include <random>
 #include <set>
 
 #include "base/error.hpp"
@@ -31,7 +33,20 @@ struct Options {
     std::string device;
     std::uint32_t frames = 0;
     std::uint64_t seed = 0;
-    bool json = false;
+    std::string protocol = "actformer";
+    std::uint32_t samples = 0;  ///< most motions that ACTOR's protocol makes; 0: 3000
+    bool kid = false, fid_infinity = false, json = false;
+    bool repeats_given = false, per_class_given = false;
+
+    bool as_actor() const { return protocol == "actor"; }
+    eval::ScorerOptions scorer() const {
+        eval::ScorerOptions asked;
+        asked.seed = seed;
+        asked.protocol = as_actor() ? eval::Protocol::actor : eval::Protocol::actformer;
+        asked.kid = kid;
+        asked.fid_infinity = fid_infinity;
+        return asked;
+    }
 };
 
 /// Where features are put while they are needed: beside the output, so that scoring goes on where it was, else
@@ -75,6 +90,27 @@ std::vector<std::uint32_t> labels_to_generate(const eval::WindowsOptions& real) 
     return {labels.begin(), labels.end()};
 }
 
+/// ACTOR's protocol: a motion for every clip of the real side, of its class, in 20 seeds; of more than 3,000 clips some.
+void ask_as_actor(const Options& options, const eval::WindowsOptions& real, eval::GeneratedRequest& wanted) {
+    constexpr std::uint32_t most = 3000;
+    if (options.per_class_given)
+        throw Error("--per-class: ACTOR's protocol makes a motion for every real clip; leave it out");
+    const ingest::Dataset dataset(real.dataset);
+    auto clips = dataset.split(real.split);
+    std::mt19937_64 random(options.seed);
+    for (std::size_t i = clips.size(); i > 1; --i)  // Fisher and Yates, the same on every platform
+        std::swap(clips[i - 1], clips[((random() >> 32) * i) >> 32]);
+    const auto kept = std::min<std::size_t>(clips.size(), options.samples ? options.samples : most);
+    std::map<std::uint32_t, std::uint32_t> counts;
+    for (std::size_t i = 0; i < kept; ++i) ++counts[dataset.clips()[clips[i]].label];
+    wanted.labels.clear();
+    for (const auto& [label, count] : counts) {
+        wanted.labels.push_back(label);
+        wanted.counts.push_back(count);
+    }
+    if (!options.repeats_given) wanted.sets = 20;
+}
+
 /// True where features files are scored, false where motions are.
 bool from_features(const Options& options) {
     const auto& m = options.motions;
@@ -103,7 +139,7 @@ eval::ScoreMotions prepared(const Options& options, const eval::GenerateSets& ge
                             const fs::path& work) {
     auto request = options.motions;
     request.work = work;
-    request.options.seed = options.seed;
+    request.options = options.scorer();
     request.real.dataset = ingest::one_dataset_at(request.real.dataset);
     eval::MotionsFileOptions files{options.frames, request.real.batch, {}};
     if (!options.labels.empty())
@@ -114,6 +150,7 @@ eval::ScoreMotions prepared(const Options& options, const eval::GenerateSets& ge
     if (!generate) throw Error("score --generator: this program has no libtorch; see README");
     auto wanted = options.generate;
     wanted.labels = labels_to_generate(request.real);
+    if (options.as_actor()) ask_as_actor(options, request.real, wanted);
     wanted.seed = options.seed;
     wanted.frames = options.frames;
     request.generated = generate(wanted);
@@ -168,7 +205,7 @@ void print_text(const eval::Scored& scored) {
 eval::Scored scored_by(const Options& options, const eval::GenerateSets& generate, const fs::path& work) {
     if (from_features(options)) {
         auto request = options.features;
-        request.options.seed = options.seed;
+        request.options = options.scorer();
         return eval::score_features(request);
     }
     const auto request = prepared(options, generate, work);
@@ -183,6 +220,8 @@ eval::Scored scored_by(const Options& options, const eval::GenerateSets& generat
 }
 
 void run(const Options& options, const eval::GenerateSets& generate) {
+    if (options.samples > 0 && (!options.as_actor() || options.generate.generator.empty()))
+        throw Error("--samples is for --protocol actor with --generator; --per-class is for the others");
     WorkFolder work(options.out);
     const auto scored = scored_by(options, generate, work.path());
     if (!options.out.empty()) write_whole(options.out, scored.json.dump(2) + "\n");
@@ -253,6 +292,20 @@ void add_score(CLI::App& app, const eval::GenerateSets& generate) {
         ->add_option("--generated-features", options->features.generated,
                      "Features of the generated side, with labels, each file a repeat")
         ->type_name("FEATURES.h5");
+    command
+        ->add_option(
+            "--protocol", options->protocol,
+            "How a paper's tables are measured: actformer, or actor (a motion for every real clip, 20 seeds, "
+            "accuracy over all motions, 1.96 s / sqrt(n))")
+        ->check(CLI::IsMember({"actformer", "actor"}))
+        ->capture_default_str();
+    command
+        ->add_option("--samples", options->samples,
+                     "Most motions that ACTOR's protocol makes (default: 3000; MDM's copy of it: 1000)")
+        ->check(CLI::Range(2, 1'000'000));
+    command->add_flag("--kid", options->kid, "Kernel inception distance too, exact over all pairs");
+    command->add_flag("--fid-infinity", options->fid_infinity,
+                      "FIDs without the bias of few samples too, extrapolated from subsets");
     command->add_option("--seed", options->seed, "Seed of the first repeat, and of all random draws")
         ->capture_default_str();
     command
@@ -268,12 +321,22 @@ void add_score(CLI::App& app, const eval::GenerateSets& generate) {
         "motions.h5\n"
         "  actformer score --recogniser recogniser --real ntu/ntu-1p --split xsub/train --generator run "
         "--repeats 20 -o scores.json\n"
+        "  actformer score --recogniser recogniser --real uestc --split test --generator run --protocol "
+        "actor "
+        "--samples 1000\n"
+        "  actformer score --recogniser recogniser --real ntu/ntu-1p --generator run --kid --fid-infinity\n"
         "  actformer score --single-recogniser ntu15 --real gta-3p --generator run\n"
         "  actformer score --real-features real.h5 --generated-features generated.h5\n"
         "Real clips are cut into windows; their features are kept in $XDG_CACHE_HOME/actformer/features "
         "(or ~/.cache), so that the next scoring starts at once.\n"
-        "Of several repeats the mean is given with the half-width of its 95 % interval, t s / sqrt(n).\n");
-    command->callback([options, generate] { run(*options, generate); });
+        "Of several repeats the mean is given with the half-width of its 95 % interval, t s / sqrt(n); "
+        "ACTOR's takes 1.96 "
+        "for t.\n");
+    command->callback([options, generate, command] {
+        options->repeats_given = command->count("--repeats") > 0;
+        options->per_class_given = command->count("--per-class") > 0;
+        run(*options, generate);
+    });
 }
 
 void add_score(CLI::App& app) {

@@ -17,6 +17,9 @@ struct Interval {
 /// Of at least one value.
 Interval interval(std::span<const double> values);
 
+/// The same with the normal distribution's 1.96 in place of t, as papers have it.
+Interval normal_interval(std::span<const double> values);
+
 /// t with P(|T| <= t) = 0.95 for `degrees` degrees of freedom, at least 1.
 double student_95(std::size_t degrees);
 

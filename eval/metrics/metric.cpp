@@ -11,6 +11,10 @@ const std::vector<Metric>& metrics() {
         {"fid_whole", "FIDw", "", 1, Direction::lower},
         {"fida_mean", "FIDa_m", "", 1, Direction::lower},
         {"fida_whole", "FIDa_w", "", 1, Direction::lower},
+        {"fid_mean_infinity", "FIDm at infinity", "", 1, Direction::lower},
+        {"fid_whole_infinity", "FIDw at infinity", "", 1, Direction::lower},
+        {"kid_mean", "KIDm", "", 1, Direction::lower},
+        {"kid_whole", "KIDw", "", 1, Direction::lower},
         {"diversity", "diversity", "", 1, Direction::nearest_real},
         {"multimodality", "multimodality", "", 1, Direction::nearest_real},
     };

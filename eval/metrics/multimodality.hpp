@@ -3,12 +3,13 @@
 
 #include <optional>
 
-#include "eval/metrics/samples.hpp"
+#include "eval/metrics/pairs.hpp"
 
 namespace actformer::eval {
 
 /// Mean over the classes that have two samples or more of the mean distance of `pairs` random pairs within the class. None
-/// where no class has them.
-std::optional<double> multimodality(const Samples& samples, std::size_t pairs = 20, std::uint64_t seed = 0);
+/// where no class has them. Pairs drawn with replacement take classes of a single sample too, as ACTOR's code does.
+std::optional<double> multimodality(const Samples& samples, std::size_t pairs = 20, std::uint64_t seed = 0,
+                                    PairsDrawn drawn = PairsDrawn::of_different_samples);
 
 }  // namespace actformer::eval

@@ -19,12 +19,13 @@ std::size_t draw(PairRandom& random, std::size_t n) {
 }  // namespace
 
 double mean_pair_distance(const Samples& samples, const std::vector<std::size_t>& which, std::size_t pairs,
-                          PairRandom& random) {
+                          PairRandom& random, PairsDrawn drawn) {
     double sum = 0;
     for (std::size_t i = 0; i < pairs; ++i) {
         const auto one = draw(random, which.size());
-        auto other = draw(random, which.size() - 1);
-        if (other >= one) ++other;
+        const bool any = drawn == PairsDrawn::with_replacement;
+        auto other = draw(random, any ? which.size() : which.size() - 1);
+        if (!any && other >= one) ++other;
         sum += distance(features_of(samples, which[one]), features_of(samples, which[other]));
     }
     return sum / static_cast<double>(pairs);

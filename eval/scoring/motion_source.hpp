@@ -60,6 +60,7 @@ struct MotionSet {
 struct GeneratedRequest {
     std::string generator;              ///< folder of a training, or weights
     std::vector<std::uint32_t> labels;  ///< from 0; empty: all classes
+    std::vector<std::uint32_t> counts;  ///< motions of each of `labels`; empty: per_class of all
     std::uint32_t per_class = 100;
     std::uint64_t seed = 0;  ///< of the first set; the next take the seeds that follow
     std::size_t sets = 1;

@@ -6,7 +6,6 @@
 
 #include "base/error.hpp"
 #include "eval/metrics/diversity.hpp"
-#include "eval/metrics/multimodality.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -159,12 +158,15 @@ std::optional<double> value_of(const Score& score, const Metric& metric) {
     const auto whole = [](const std::optional<Distances>& d) {
         return d ? std::optional(d->whole) : std::nullopt;
     };
-    if (metric.name == "accuracy")
-        return score.confusion ? std::optional(score.confusion->mean_class_accuracy()) : std::nullopt;
+    if (metric.name == "accuracy") return score.accuracy;
     if (metric.name == "fid_mean") return mean(score.fid);
     if (metric.name == "fid_whole") return whole(score.fid);
     if (metric.name == "fida_mean") return mean(score.fid_groups);
     if (metric.name == "fida_whole") return whole(score.fid_groups);
+    if (metric.name == "fid_mean_infinity") return score.fid_mean_infinity;
+    if (metric.name == "fid_whole_infinity") return score.fid_whole_infinity;
+    if (metric.name == "kid_mean") return score.kid_mean;
+    if (metric.name == "kid_whole") return score.kid_whole;
     if (metric.name == "diversity") return score.diversity;
     if (metric.name == "multimodality") return score.multimodality;
     throw Error("metric '{}' has no value", metric.name);
@@ -174,6 +176,7 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
                           const std::function<Observed(std::size_t)>& generated,
                           const ScorerOptions& options) {
     ScoreReport report;
+    report.protocol = options.protocol;
     report.classes = std::move(classes);
     const Scorer scorer(real, options);
     for (std::size_t i = 0; i < repeats; ++i) {
@@ -183,10 +186,10 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
     }
     report.real = scorer.real().counts;
     report.floor = score_floor(real, report.repeats[0].counts, options);
-    if (!real.samples.logits.empty()) report.real_accuracy = confusion_of(real.samples).mean_class_accuracy();
+    if (!real.samples.logits.empty()) report.real_accuracy = accuracy_of(confusion_of(real.samples), options);
     if (!real.of_groups) {
         report.real_diversity = diversity(real.samples, options.diversity_pairs, options.seed);
-        report.real_multimodality = multimodality(real.samples, options.multimodality_pairs, options.seed);
+        report.real_multimodality = multimodality_of(real.samples, options);
     }
     warn_of_counts(report);
     warn_of_collapse(report);
@@ -199,7 +202,7 @@ std::optional<Interval> summary(const ScoreReport& report, const Metric& metric)
     for (const auto& score : report.repeats)
         if (const auto value = value_of(score, metric)) values.push_back(*value);
     if (values.empty()) return {};
-    return interval(values);
+    return report.protocol == Protocol::actor ? normal_interval(values) : interval(values);
 }
 
 nlohmann::ordered_json to_json(const ScoreReport& report) {
@@ -228,6 +231,7 @@ nlohmann::ordered_json to_json(const ScoreReport& report) {
                                    {"label", c},
                                    {"real", report.real[c]},
                                    {"generated", fewest(report, c)}});
+    if (report.protocol == Protocol::actor) out["protocol"] = "actor";
     out["warnings"] = report.warnings;
     return out;
 }

@@ -11,6 +11,7 @@
 namespace actformer::eval {
 
 struct ScoreReport {
+    Protocol protocol = Protocol::actformer;
     std::vector<std::string> classes;
     std::vector<Score> repeats;           ///< at least one
     std::optional<Floor> floor;           ///< the real side against itself
@@ -43,6 +44,7 @@ std::optional<Interval> summary(const ScoreReport& report, const Metric& metric)
 ///                there is none
 ///   "confusion"  (classes, classes) counts over all repeats, rows the class asked for
 ///   "left_out"   [{"class", "label", "real", "generated"}] classes without a FID, with the fewest samples that a repeat has
+///   "protocol"   where it is another than ActFormer's
 ///   "warnings"   lines
 nlohmann::ordered_json to_json(const ScoreReport& report);
 

@@ -6,6 +6,8 @@
 
 #include "base/error.hpp"
 #include "eval/metrics/diversity.hpp"
+#include "eval/metrics/fid_infinity.hpp"
+#include "eval/metrics/kid.hpp"
 #include "eval/metrics/multimodality.hpp"
 
 namespace actformer::eval {
@@ -79,10 +81,22 @@ void check_comparable(const Observed& real, const Observed& generated) {
     if (real.groups && generated.groups) compare(*real.groups, *generated.groups);
 }
 
+double accuracy_of(const Confusion& confusion, const ScorerOptions& options) {
+    return options.protocol == Protocol::actor ? confusion.sample_accuracy()
+                                               : confusion.mean_class_accuracy();
+}
+
+std::optional<double> multimodality_of(const Samples& samples, const ScorerOptions& options) {
+    const auto drawn =
+        options.protocol == Protocol::actor ? PairsDrawn::with_replacement : PairsDrawn::of_different_samples;
+    return multimodality(samples, options.multimodality_pairs, options.seed, drawn);
+}
+
 Scorer::Scorer(const Observed& real, const ScorerOptions& options) : options_(options) {
     if (real.samples.size() < 2)
         throw Error("{}: one sample is too few to score against; take a larger split", real.source);
     real_ = statistics_of(real.samples, options.threads);
+    if (options.kid || options.fid_infinity) real_samples_ = real.samples;
     if (real.groups) real_groups_ = statistics_of(*real.groups, options.threads);
 }
 
@@ -93,15 +107,27 @@ Score Scorer::score(const Observed& generated) const {
     Score out;
     const auto statistics = statistics_of(samples, options_.threads);
     out.counts = statistics.counts;
-    if (!samples.logits.empty()) out.confusion = confusion_of(samples);
+    if (!samples.logits.empty()) {
+        out.confusion = confusion_of(samples);
+        out.accuracy = accuracy_of(*out.confusion, options_);
+    }
     (generated.of_groups ? out.fid_groups : out.fid) = distances(real_, statistics, options_.threads);
     if (real_groups_ && generated.groups)
         out.fid_groups =
             distances(*real_groups_, statistics_of(*generated.groups, options_.threads), options_.threads);
     if (!generated.of_groups) {
         out.diversity = diversity(samples, options_.diversity_pairs, options_.seed);
-        out.multimodality = multimodality(samples, options_.multimodality_pairs, options_.seed);
+        out.multimodality = multimodality_of(samples, options_);
     }
+    if (options_.kid) {
+        out.kid_mean = kid_mean(*real_samples_, samples, options_.threads);
+        out.kid_whole = kid(*real_samples_, samples, options_.threads);
+    }
+    if (options_.fid_infinity)
+        if (const auto found = fid_infinity(*real_samples_, samples, options_.seed, options_.threads)) {
+            out.fid_mean_infinity = found->mean;
+            out.fid_whole_infinity = found->whole;
+        }
     out.identical = identical_classes(statistics);
     return out;
 }

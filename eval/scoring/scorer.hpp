@@ -20,7 +20,16 @@ struct Observed {
 /// Throws Error unless the sides have as many classes, dimensions, and both or neither groups.
 void check_comparable(const Observed& real, const Observed& generated);
 
+/// How a paper's tables are measured.
+enum class Protocol {
+    actformer,  ///< accuracy is the mean over classes; multimodality's pairs are of different samples; Student's interval
+    actor  ///< accuracy is the share of all samples; multimodality's pairs are drawn with replacement, a mean over all
+    ///< of them; 1.96 s / sqrt(n) (ACTOR's paper and code; Guo et al., Action2Motion, 2020)
+};
+
 struct ScorerOptions {
+    Protocol protocol = Protocol::actformer;
+    bool kid = false, fid_infinity = false;  ///< whether they are measured
     std::size_t diversity_pairs = 200, multimodality_pairs = 20;
     std::uint64_t seed = 0;  ///< of the pairs, and of the real side's halves
     unsigned threads = 0;    ///< 0: one a core
@@ -32,9 +41,15 @@ struct Score {
     std::optional<Confusion> confusion;   ///< where there are logits
     std::optional<Distances> fid;         ///< where a recogniser sees the persons together
     std::optional<Distances> fid_groups;  ///< FIDa
+    std::optional<double> accuracy;       ///< where there are logits, as the protocol has it
     std::optional<double> diversity, multimodality;
+    std::optional<double> kid_mean, kid_whole, fid_mean_infinity, fid_whole_infinity;  ///< where asked for
     std::vector<std::size_t> identical;  ///< classes whose samples, two or more, are all the same
 };
+
+/// As the protocol has them; no multimodality where there are too few samples.
+double accuracy_of(const Confusion& confusion, const ScorerOptions& options);
+std::optional<double> multimodality_of(const Samples& samples, const ScorerOptions& options);
 
 class Scorer {
   public:
@@ -48,6 +63,7 @@ class Scorer {
     ScorerOptions options_;
     Statistics real_;
     std::optional<Statistics> real_groups_;
+    std::optional<Samples> real_samples_;  ///< where a metric needs them beside their statistics
 };
 
 /// The real side against itself: what a perfect generator would come to with as many samples, for FIDs of finite sets are

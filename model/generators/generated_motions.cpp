@@ -16,8 +16,8 @@ namespace {
 struct Loaded {
     GeneratorFile file;
     std::shared_ptr<Maker> maker;
-    std::vector<std::uint32_t> labels;
-    std::uint32_t per_class = 0, made_frames = 0, frames = 0;  ///< frames: what is left of made_frames
+    std::vector<std::uint32_t> labels, counts;  ///< classes, and motions of each
+    std::uint32_t made_frames = 0, frames = 0;  ///< frames: what is left of made_frames
     std::string source;
 };
 
@@ -51,18 +51,22 @@ class GeneratedMotions final : public eval::MotionSource {
     std::shared_ptr<const Loaded> loaded_;
     std::uint64_t seed_;
     eval::MotionsInfo info_;
-    std::vector<std::uint64_t> rows_;  ///< (labels, per_class) of each motion as it is made
+    std::vector<std::uint64_t> rows_;  ///< of each motion as it is made, class by class
     std::size_t class_ = 0;            ///< of the next batch, among Loaded::labels
     std::uint32_t first_ = 0;          ///< of the next batch, within its class
+    std::size_t made_ = 0;             ///< motions of all batches so far
     std::vector<float> values_;        ///< of the last batch
 };
 
 /// Rows follow the names in the order in which a file has them: A001_10 before A001_2.
 void GeneratedMotions::list() {
     std::vector<std::string> made;
-    for (const auto label : loaded_->labels)
-        for (std::uint32_t i = 0; i < loaded_->per_class; ++i)
-            made.push_back(fmt::format("A{:03}_{}", label + 1, i));
+    std::vector<std::uint32_t> labels;
+    for (std::size_t c = 0; c < loaded_->labels.size(); ++c)
+        for (std::uint32_t i = 0; i < loaded_->counts[c]; ++i) {
+            made.push_back(fmt::format("A{:03}_{}", loaded_->labels[c] + 1, i));
+            labels.push_back(loaded_->labels[c]);
+        }
     std::vector<std::size_t> order(made.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return made[a] < made[b]; });
@@ -70,14 +74,14 @@ void GeneratedMotions::list() {
     for (std::size_t row = 0; row < order.size(); ++row) {
         rows_[order[row]] = row;
         info_.names.push_back(made[order[row]]);
-        info_.labels.push_back(loaded_->labels[order[row] / loaded_->per_class]);
+        info_.labels.push_back(labels[order[row]]);
     }
 }
 
 eval::MotionBatch GeneratedMotions::next() try {
     if (class_ == loaded_->labels.size()) return {};
     const auto whole = loaded_->maker->batch();
-    const auto count = std::min(whole, loaded_->per_class - first_);
+    const auto count = std::min(whole, loaded_->counts[class_] - first_);
     const auto made =
         loaded_->maker->make(seed_, loaded_->labels[class_], first_ / whole, loaded_->made_frames);
     const std::size_t frame = info_.joints, frames = loaded_->made_frames;
@@ -87,15 +91,16 @@ eval::MotionBatch GeneratedMotions::next() try {
         values_.insert(values_.end(), first, first + static_cast<std::ptrdiff_t>(loaded_->frames * frame));
     }
     eval::MotionBatch batch;
-    const auto row = rows_.begin() + static_cast<std::ptrdiff_t>(class_ * loaded_->per_class + first_);
+    const auto row = rows_.begin() + static_cast<std::ptrdiff_t>(made_);
     batch.rows.assign(row, row + count);
     if (!std::ranges::all_of(values_, [](float v) { return std::isfinite(v); }))
         throw Error("{}: motions such as '{}' hold numbers that are not finite; take earlier weights",
                     info_.source, info_.names[batch.rows[0]]);
     batch.frames = loaded_->frames;
     batch.values = values_;
+    made_ += count;
     first_ += count;
-    if (first_ == loaded_->per_class) {
+    if (first_ == loaded_->counts[class_]) {
         first_ = 0;
         ++class_;
     }
@@ -104,11 +109,16 @@ eval::MotionBatch GeneratedMotions::next() try {
     throw Error("libtorch: {}", one_line(e));
 }
 
+std::string counts_of(const eval::GeneratedRequest& request) {
+    return request.counts.empty() ? std::to_string(request.per_class)
+                                  : fmt::format("{}", fmt::join(request.counts, ","));
+}
+
 Loaded load(const eval::GeneratedRequest& request) {
     Loaded loaded{load_generator(request.generator),
                   {},
                   request.labels,
-                  request.per_class,
+                  request.counts,
                   0,
                   request.frames,
                   request.generator};
@@ -123,6 +133,7 @@ Loaded load(const eval::GeneratedRequest& request) {
             throw Error(
                 "{}: generates {} classes, and the real side has class {}; score on the data that it learnt",
                 request.generator, classes, label + 1);
+    if (loaded.counts.empty()) loaded.counts.assign(loaded.labels.size(), request.per_class);
     loaded.made_frames = loaded.maker->most_frames();
     if (loaded.frames > loaded.made_frames)
         throw Error("{}: --frames {}, but its motions have {}; ask for fewer", request.generator,
@@ -141,7 +152,7 @@ std::vector<eval::MotionSet> generated_sets(const eval::GeneratedRequest& reques
         const auto seed = request.seed + i;
         eval::MotionSet set;
         set.name = fmt::format("{}, seed {}", request.generator, seed);
-        set.key = fmt::format("{}|{}|{}|{}|{}", loaded->file.checksum, seed, loaded->per_class,
+        set.key = fmt::format("{}|{}|{}|{}|{}", loaded->file.checksum, seed, counts_of(request),
                               fmt::join(loaded->labels, ","), loaded->frames);
         set.seed = seed;
         set.open = [loaded, seed] { return std::make_unique<GeneratedMotions>(loaded, seed); };

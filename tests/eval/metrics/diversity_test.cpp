@@ -28,6 +28,10 @@ TEST(Diversity, IsTheMeanDistanceOfPairs) {
     EXPECT_EQ(diversity(corners), diversity(corners)) << "the same seed draws the same pairs";
     EXPECT_NE(diversity(corners, 200, 1), diversity(corners, 200, 2));
 
+    // With replacement one pair in five is a sample twice, 0 apart.
+    EXPECT_NEAR(*multimodality(corners, 200'000, 3, actformer::eval::PairsDrawn::with_replacement),
+                0.8 * 1.5 * std::sqrt(2.0), 0.01);
+
     const auto single = made_samples({1, 0}, 4, 1);
     EXPECT_FALSE(diversity(single));
     EXPECT_FALSE(multimodality(made_samples({1, 1}, 4, 1)));
@@ -37,4 +41,6 @@ TEST(Diversity, IsTheMeanDistanceOfPairs) {
     lonely.logits.clear();
     lonely.labels.resize(5);
     EXPECT_EQ(with, multimodality(lonely)) << "a class of one sample has no pairs";
+    const auto pairs = actformer::eval::PairsDrawn::with_replacement;
+    EXPECT_EQ(multimodality(made_samples({1, 1}, 4, 1), 20, 0, pairs), 0) << "but itself";
 }

@@ -23,6 +23,7 @@ TEST(Interval, OfRepeats) {
     const auto got = eval::interval(values);
     EXPECT_EQ(got.mean, 3);
     EXPECT_NEAR(*got.half_width, 3.18245 * std::sqrt(14.0 / 3 / 4), 1e-4);
+    EXPECT_NEAR(*eval::normal_interval(values).half_width, 1.96 * std::sqrt(14.0 / 3 / 4), 1e-12);
     EXPECT_FALSE(eval::interval(std::vector<double>{5}).half_width)
         << "one value tells nothing of its spread";
     EXPECT_EQ(eval::interval(std::vector<double>{5, 5, 5}).half_width, 0);

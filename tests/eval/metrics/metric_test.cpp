@@ -11,12 +11,15 @@ using namespace actformer::eval;
 TEST(Metrics, HaveNamesOfTheirOwnAndValues) {
     std::set<std::string_view> names;
     Score score;
-    score.confusion = Confusion(2);
-    score.confusion->add(1, 1);
+    score.accuracy = 1;
     score.fid = Distances{3, 4, {}, {}};
     score.fid_groups = Distances{5, 6, {}, {}};
-    score.diversity = 7;
-    score.multimodality = 8;
+    score.fid_mean_infinity = 7;
+    score.fid_whole_infinity = 8;
+    score.kid_mean = 9;
+    score.kid_whole = 10;
+    score.diversity = 11;
+    score.multimodality = 12;
     std::vector<double> values;
     for (const auto& metric : metrics()) {
         names.insert(metric.name);
@@ -25,11 +28,10 @@ TEST(Metrics, HaveNamesOfTheirOwnAndValues) {
         values.push_back(*value_of(score, metric));
     }
     EXPECT_EQ(names.size(), metrics().size());
-    EXPECT_EQ(values, (std::vector<double>{1, 4, 3, 6, 5, 7, 8}));
+    EXPECT_EQ(values, (std::vector<double>{1, 4, 3, 6, 5, 7, 8, 9, 10, 11, 12}));
     EXPECT_EQ(find_metric("fid"), nullptr);
     const Score nothing;
-    for (const auto* name : {"accuracy", "fid_mean", "fida_mean", "fida_whole", "diversity", "multimodality"})
-        EXPECT_FALSE(value_of(nothing, *find_metric(name))) << name;
+    for (const auto& metric : metrics()) EXPECT_FALSE(value_of(nothing, metric)) << metric.name;
 }
 
 TEST(Metrics, SayWhichWayIsBetter) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "eval/stgcn/weights.hpp"
@@ -77,6 +78,37 @@ TEST_F(ScoreGenerator, MakesTheClassesOfTheSplitOnly) {
     EXPECT_EQ(json["per_class"][2]["generated"], 0);
 }
 
+TEST_F(ScoreGenerator, MeasuresAsActorDoes) {
+    const auto of_generator = "--generator " + at("run") + " --protocol actor ";
+    const auto json = scored(of_generator + "--split s/train --seed 3");
+    EXPECT_EQ(json["protocol"], "actor");
+    const auto& accuracy = json["accuracy"];
+    ASSERT_EQ(accuracy["repeats"].size(), 20U) << "seeds";
+    EXPECT_EQ(json["per_class"][1]["generated"], 12) << "a motion for every clip";
+    double right = 0, squares = 0, all = 0;
+    for (std::size_t t = 0; t < 3; ++t)
+        for (std::size_t g = 0; g < 3; ++g) {
+            all += json["confusion"][t][g].get<double>();
+            if (t == g) right += json["confusion"][t][g].get<double>();
+        }
+    EXPECT_EQ(all, 20 * 36);
+    const double mean = accuracy["mean"];
+    EXPECT_NEAR(mean, right / all, 1e-12);
+    for (const double value : accuracy["repeats"]) squares += (value - mean) * (value - mean);
+    EXPECT_NEAR(accuracy["ci95"], 1.96 * std::sqrt(squares / 19 / 20), 1e-12);
+
+    // Fewer motions than clips: classes as the clips drawn have them.
+    const auto some = scored(of_generator + "--repeats 2 --samples 10 --kid --fid-infinity");
+    int made = 0;
+    for (const auto& one : some["per_class"]) made += one["generated"].get<int>();
+    EXPECT_EQ(made, 10);
+    EXPECT_EQ(some["accuracy"]["repeats"].size(), 2U);
+    for (const auto* metric : {"kid_mean", "kid_whole", "fid_whole_infinity"}) {
+        EXPECT_TRUE(some[metric]["mean"].is_number()) << metric;
+        EXPECT_FALSE(json.contains(metric)) << metric << " was not asked for";
+    }
+}
+
 TEST_F(ScoreGenerator, GoesOnWhereItWasInterrupted) {
     fs::create_directories(dir / "s.json/full");  // the scores cannot be written: all is done but that
     const auto arguments = generator("--repeats 2 -o " + at("s.json"));
@@ -107,6 +139,8 @@ TEST_F(ScoreGenerator, RefusesWhatDoesNotFit) {
     fs::create_directory(dir / "empty");
     refused("--generator " + at("empty"), {"empty", "weights-"});
     refused("--generator=" + at("w.h5"), {"w.h5", "generator"});
+    refused(generator("--protocol actor"), {"--per-class", "leave it out"});
+    refused(generator("--samples 9"), {"--samples", "--protocol actor"});
     refused(generator("--frames 17"), {"run", "17", "16"});
     refused(generator("--generate-on nonsense"), {"nonsense"});
     refused("--generator " + at("run") + " --generated " + at("m.h5"), {"either"});
