@@ -5,6 +5,7 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/aside.hpp"
+#include "eval/scoring/measured_motions.hpp"
 #include "eval/scoring/real_features.hpp"
 #include "ingest/dataset/dataset_json.hpp"
 
@@ -52,7 +53,11 @@ void warn_of_lengths(ScoreReport& report, std::uint32_t window, const StoredFeat
 class Sides {
   public:
     Sides(const ScoreMotions& request, kernels::Device& device, const ScoreProgress& progress)
-        : request_(request), device_(device), progress_(progress), dataset_(request.real.dataset) {
+        : request_(request),
+          device_(device),
+          progress_(progress),
+          dataset_(request.real.dataset),
+          tape_(tape_for(dataset_)) {
         if (!request.recogniser.empty()) whole_.emplace(device, request.recogniser, request.real.batch);
         if (!request.single_recogniser.empty())
             single_.emplace(device, request.single_recogniser, request.real.batch, Persons::apart);
@@ -72,6 +77,7 @@ class Sides {
         }
         auto out = observed(std::move(cached.features), request_.real.dataset.string());
         if (whole_ && single_) add_groups(out, real_features(*single_, "real-groups.h5").features);
+        out.motion = real_measures();
         return with_classes(std::move(out));
     }
 
@@ -87,6 +93,7 @@ class Sides {
         }
         auto out = observed(std::move(stored), set.name);
         if (whole_ && single_) add_groups(out, read_features(file_of(set, *single_)));
+        if (fs::exists(measures_of(set))) out.motion = read_measures(measures_of(set));
         return with_classes(std::move(out));
     }
 
@@ -176,19 +183,45 @@ class Sides {
         return request_.work / (key.hex() + ".h5");
     }
 
-    /// The features of a set that are not there yet, in one pass over its motions.
+    fs::path measures_of(const MotionSet& set) const {
+        return fs::path(file_of(set, whole_ ? *whole_ : *single_)).replace_extension(".measures");
+    }
+
+    /// Of the real windows; they lie in the work folder until scoring has ended.
+    std::optional<MotionMeasures> real_measures() {
+        if (!tape_) return {};
+        const auto file = request_.work / "real.measures";
+        if (fs::exists(file)) return read_measures(file);
+        MeasuredSource real(open_windows(device_, request_.real), *tape_, device_);
+        while (!real.next().rows.empty()) continue;
+        write_measures(file, real.measures());
+        return real.measures();
+    }
+
+    /// The features and measures of a set that are not there yet, in one pass over its motions.
     void make_missing(const MotionSet& set) {
         std::vector<FeaturesTarget> missing;
         for (auto* extractor : {whole_ ? &*whole_ : nullptr, single_ ? &*single_ : nullptr})
             if (extractor && !fs::exists(file_of(set, *extractor)))
                 missing.push_back({extractor, file_of(set, *extractor)});
-        if (!missing.empty()) write_features(*set.open(), missing, tell(set.name));
+        auto motions = set.open();
+        if (!tape_ || !fits(*tape_, motions->info()) || fs::exists(measures_of(set))) {
+            if (!missing.empty()) write_features(*motions, missing, tell(set.name));
+            return;
+        }
+        MeasuredSource measured(std::move(motions), *tape_, device_);
+        if (missing.empty())
+            while (!measured.next().rows.empty()) continue;
+        else
+            write_features(measured, missing, tell(set.name));
+        write_measures(measures_of(set), measured.measures());
     }
 
     const ScoreMotions& request_;
     kernels::Device& device_;
     const ScoreProgress& progress_;
     ingest::Dataset dataset_;
+    std::optional<MeasuringTape> tape_;  ///< none where motions cannot be measured
     std::optional<FeatureExtractor> whole_, single_;
     std::vector<std::string> classes_, views_;
     StoredFeatures first_repeat_;  ///< its frames

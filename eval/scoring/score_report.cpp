@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/error.hpp"
 #include "eval/metrics/diversity.hpp"
@@ -15,6 +16,22 @@ using Json = nlohmann::ordered_json;
 template <typename T>
 Json number(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
+}
+
+/// What is measured of motions themselves.
+struct MotionMetric {
+    std::string_view name;
+    std::optional<double> MotionScore::*value;
+};
+
+constexpr MotionMetric motion_metrics[] = {{"limb_acceleration", &MotionScore::limb_acceleration},
+                                           {"root_acceleration", &MotionScore::root_acceleration},
+                                           {"foot_sliding", &MotionScore::foot_sliding},
+                                           {"root_distance", &MotionScore::root_distance}};
+
+const MotionMetric* motion_metric(std::string_view name) {
+    const auto* found = std::ranges::find(motion_metrics, name, &MotionMetric::name);
+    return found == std::end(motion_metrics) ? nullptr : found;
 }
 
 std::string listed(std::vector<std::string> items) {
@@ -116,14 +133,19 @@ Json class_json(const ScoreReport& report, std::size_t c) {
     const auto fid = [&](const Score& s) { return of_class(s.fid); };
     const auto fida = [&](const Score& s) { return of_class(s.fid_groups); };
     const auto floor = [&](const Score& s) { return s.fid ? fid(s) : fida(s); };
-    return {{"class", report.classes[c]},
-            {"label", c},
-            {"real", report.real[c]},
-            {"generated", fewest(report, c)},
-            {"accuracy", number(mean_of(report, [c](const Score& s) { return class_accuracy(s, c); }))},
-            {"fid", number(mean_of(report, fid))},
-            {"fida", number(mean_of(report, fida))},
-            {"floor", report.floor ? number(floor(report.floor->score)) : Json(nullptr)}};
+    Json out{{"class", report.classes[c]},
+             {"label", c},
+             {"real", report.real[c]},
+             {"generated", fewest(report, c)},
+             {"accuracy", number(mean_of(report, [c](const Score& s) { return class_accuracy(s, c); }))},
+             {"fid", number(mean_of(report, fid))},
+             {"fida", number(mean_of(report, fida))},
+             {"floor", report.floor ? number(floor(report.floor->score)) : Json(nullptr)}};
+    if (report.repeats[0].motion_by_class.empty()) return out;
+    for (const auto& metric : motion_metrics)
+        out[std::string(metric.name)] =
+            number(mean_of(report, [&](const Score& s) { return s.motion_by_class[c].*(metric.value); }));
+    return out;
 }
 
 Json floor_json(const Floor& floor) {
@@ -169,6 +191,7 @@ std::optional<double> value_of(const Score& score, const Metric& metric) {
     if (metric.name == "kid_whole") return score.kid_whole;
     if (metric.name == "diversity") return score.diversity;
     if (metric.name == "multimodality") return score.multimodality;
+    if (const auto* own = motion_metric(metric.name)) return score.motion.*(own->value);
     throw Error("metric '{}' has no value", metric.name);
 }
 
@@ -190,6 +213,11 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
     if (!real.of_groups) {
         report.real_diversity = diversity(real.samples, options.diversity_pairs, options.seed);
         report.real_multimodality = multimodality_of(real.samples, options);
+    }
+    if (real.motion) {
+        std::vector<std::size_t> all(real.motion->size());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        report.real_motion = compare(*real.motion, all, *real.motion, all);
     }
     warn_of_counts(report);
     warn_of_collapse(report);
@@ -222,6 +250,10 @@ nlohmann::ordered_json to_json(const ScoreReport& report) {
                    {"accuracy", number(report.real_accuracy)},
                    {"diversity", number(report.real_diversity)},
                    {"multimodality", number(report.real_multimodality)}};
+    if (report.real_motion)
+        for (const auto& metric : motion_metrics)
+            if (const auto value = (*report.real_motion).*(metric.value))
+                out["real"][std::string(metric.name)] = *value;
     out["per_class"] = Json::array();
     for (std::size_t c = 0; c < report.classes.size(); ++c) out["per_class"].push_back(class_json(report, c));
     if (report.repeats[0].confusion) out["confusion"] = confusion_json(report);

@@ -18,6 +18,7 @@ struct ScoreReport {
     std::vector<std::size_t> real;        ///< (classes) real samples
     std::optional<double> real_accuracy;  ///< of the recogniser on the real side
     std::optional<double> real_diversity, real_multimodality;
+    std::optional<MotionScore> real_motion;  ///< of the real side beside itself
     std::vector<std::string> warnings;
 };
 
@@ -35,12 +36,14 @@ std::optional<double> value_of(const Score& score, const Metric& metric);
 /// Of the repeats that have it; none where none has.
 std::optional<Interval> summary(const ScoreReport& report, const Metric& metric);
 
-/// One object: accuracy (0..1), fid_mean, fid_whole, fida_mean, fida_whole, diversity, multimodality, each
+/// One object: accuracy (0..1), fid_mean, fid_whole, fida_mean, fida_whole, diversity, multimodality, and what
+/// is measured of motions themselves (motion_measures.hpp), each
 ///   {"mean": .., "ci95": half-width or null, "repeats": [..]}      and absent where it is not measured;
 /// beside them
 ///   "floor"      the same metrics of the real side against itself, one number each, and how it was split
-///   "real"       {"samples", "accuracy", "diversity", "multimodality"} of the real side
-///   "per_class"  [{"class", "label", "real", "generated", "accuracy", "fid", "fida", "floor"}] means over the repeats, null where
+///   "real"       {"samples", "accuracy", "diversity", "multimodality"} of the real side; the motions' own metrics, where measured
+///   "per_class"  [{"class", "label", "real", "generated", "accuracy", "fid", "fida", "floor", and, where
+///                motions are measured, their own metrics}] means over the repeats, null where
 ///                there is none
 ///   "confusion"  (classes, classes) counts over all repeats, rows the class asked for
 ///   "left_out"   [{"class", "label", "real", "generated"}] classes without a FID, with the fewest samples that a repeat has

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <random>
 
 #include "base/error.hpp"
@@ -48,6 +49,7 @@ Observed subset(const Observed& from, const std::vector<std::size_t>& which) {
     out.of_groups = from.of_groups;
     out.samples = subset(from.samples, which);
     if (from.groups) out.groups = subset(*from.groups, which);
+    if (from.motion) out.motion = subset(*from.motion, which);
     return out;
 }
 
@@ -63,6 +65,13 @@ std::vector<std::vector<std::vector<std::size_t>>> clips_of(const Observed& real
         out[label][at].push_back(i);
     }
     return out;
+}
+
+/// 0 1 .. n-1
+std::vector<std::size_t> first(std::size_t n) {
+    std::vector<std::size_t> all(n);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
 }
 
 }  // namespace
@@ -97,6 +106,10 @@ Scorer::Scorer(const Observed& real, const ScorerOptions& options) : options_(op
         throw Error("{}: one sample is too few to score against; take a larger split", real.source);
     real_ = statistics_of(real.samples, options.threads);
     if (options.kid || options.fid_infinity) real_samples_ = real.samples;
+    if (real.motion) {
+        real_motion_ = real.motion;
+        real_members_ = members_by_class(real.samples);
+    }
     if (real.groups) real_groups_ = statistics_of(*real.groups, options.threads);
 }
 
@@ -128,6 +141,14 @@ Score Scorer::score(const Observed& generated) const {
             out.fid_mean_infinity = found->mean;
             out.fid_whole_infinity = found->whole;
         }
+    if (real_motion_ && generated.motion) {
+        out.motion = compare(*real_motion_, first(real_motion_->size()), *generated.motion,
+                             first(generated.motion->size()));
+        const auto members = members_by_class(samples);
+        for (std::size_t c = 0; c < members.size(); ++c)
+            out.motion_by_class.push_back(
+                compare(*real_motion_, real_members_[c], *generated.motion, members[c]));
+    }
     out.identical = identical_classes(statistics);
     return out;
 }

@@ -3,6 +3,7 @@
 
 #include "eval/metrics/confusion.hpp"
 #include "eval/metrics/fid.hpp"
+#include "eval/metrics/motion_measures.hpp"
 
 namespace actformer::eval {
 
@@ -13,6 +14,7 @@ struct Observed {
         groups;  ///< several persons: what the one-person recogniser sees, as largest_of_group says
     bool of_groups =
         false;  ///< `samples` are those of groups: there is no recogniser that sees the persons together
+    std::optional<MotionMeasures> motion;  ///< (n) of the same motions, where they are known
     std::vector<std::string> clips;  ///< (n) the clip each sample was cut from, or empty: each from its own
     std::string source;              ///< for messages
 };
@@ -44,7 +46,9 @@ struct Score {
     std::optional<double> accuracy;       ///< where there are logits, as the protocol has it
     std::optional<double> diversity, multimodality;
     std::optional<double> kid_mean, kid_whole, fid_mean_infinity, fid_whole_infinity;  ///< where asked for
-    std::vector<std::size_t> identical;  ///< classes whose samples, two or more, are all the same
+    MotionScore motion;                        ///< where motions are measured
+    std::vector<MotionScore> motion_by_class;  ///< (classes), or empty
+    std::vector<std::size_t> identical;        ///< classes whose samples, two or more, are all the same
 };
 
 /// As the protocol has them; no multimodality where there are too few samples.
@@ -63,6 +67,8 @@ class Scorer {
     ScorerOptions options_;
     Statistics real_;
     std::optional<Statistics> real_groups_;
+    std::optional<MotionMeasures> real_motion_;
+    std::vector<std::vector<std::size_t>> real_members_;  ///< by class, where motions are measured
     std::optional<Samples> real_samples_;  ///< where a metric needs them beside their statistics
 };
 

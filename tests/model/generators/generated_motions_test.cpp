@@ -78,6 +78,23 @@ TEST_F(ScoreGenerator, MakesTheClassesOfTheSplitOnly) {
     EXPECT_EQ(json["per_class"][2]["generated"], 0);
 }
 
+TEST_F(ScoreGenerator, MeasuresTheMotionsThemselves) {
+    const auto json = scored(generator("--repeats 2"));
+    // An untrained generator trembles: its frames know little of one another.
+    EXPECT_GT(json["limb_acceleration"]["mean"], 1.5);
+    EXPECT_EQ(json["real"]["limb_acceleration"], 1);
+    EXPECT_NEAR(json["floor"]["limb_acceleration"].get<double>(), 1, 0.5) << "real against real";
+    EXPECT_TRUE(json["per_class"][2]["limb_acceleration"].is_number());
+    EXPECT_FALSE(json.contains("foot_sliding")) << "no joint of toy motions is called a foot";
+    EXPECT_FALSE(json.contains("root_distance")) << "one person";
+    const auto file = at("m.h5");
+    ASSERT_EQ(
+        run_actformer("generate --generator " + at("run") + " -o " + file + " --per-class 27 --seed 5").exit,
+        0);
+    EXPECT_EQ(scored("--seed 5 --generated " + file)["limb_acceleration"]["repeats"][0],
+              json["limb_acceleration"]["repeats"][0]);
+}
+
 TEST_F(ScoreGenerator, MeasuresAsActorDoes) {
     const auto of_generator = "--generator " + at("run") + " --protocol actor ";
     const auto json = scored(of_generator + "--split s/train --seed 3");
@@ -114,7 +131,8 @@ TEST_F(ScoreGenerator, GoesOnWhereItWasInterrupted) {
     const auto arguments = generator("--repeats 2 -o " + at("s.json"));
     EXPECT_EQ(score(arguments).exit, 1);
     std::vector<fs::path> kept;
-    for (const auto& entry : fs::directory_iterator(at("s.json.work"))) kept.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(at("s.json.work")))
+        if (entry.path().extension() == ".h5") kept.push_back(entry.path());
     ASSERT_EQ(kept.size(), 2U) << "features, and no motions";
     fs::copy_file(kept[0], kept[1], fs::copy_options::overwrite_existing);  // tells whether they are used
     fs::remove_all(dir / "s.json");

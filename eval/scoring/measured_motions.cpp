@@ -1,0 +1,118 @@
+#include "eval/scoring/measured_motions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+#include "base/hdf5/reader.hpp"
+#include "base/hdf5/writer.hpp"
+#include "ingest/dataset/body_parts.hpp"
+#include "ingest/dataset/layout.hpp"
+#include "ingest/dataset/subjects.hpp"
+
+namespace actformer::eval {
+namespace {
+
+/// Where clips' bodies point in their first frames, added up: the axis of the largest sum is up.
+void find_up(const ingest::Dataset& dataset, const ingest::BodyModel& body, MeasuredBody& to) {
+    constexpr std::size_t most = 50;
+    const auto parts = ingest::body_parts(body.topology.names);
+    std::array<double, 3> sum{};
+    const auto clips = dataset.clips().size(), step = std::max<std::size_t>(1, clips / most);
+    for (std::size_t c = 0; c < clips; c += step) {
+        const auto positions = ingest::joint_positions(dataset.motion(c), body);
+        std::vector<std::array<double, 3>> places;
+        for (std::size_t j = 0; j < body.topology.joints(); ++j)
+            places.push_back({positions[3 * j], positions[3 * j + 1], positions[3 * j + 2]});
+        if (const auto way = ingest::upright_direction(places, parts))
+            for (std::size_t i = 0; i < 3; ++i) sum[i] += (*way)[i];
+    }
+    const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    const auto found = std::ranges::max_element(sum, larger);
+    if (*found == 0) return;
+    to.up = static_cast<std::size_t>(found - sum.begin());
+    to.up_sign = *found > 0 ? 1 : -1;
+}
+
+}  // namespace
+
+std::optional<MeasuringTape> tape_for(const ingest::Dataset& dataset) try {
+    const auto subjects = ingest::subjects_of(dataset);
+    MeasuringTape tape{subjects, {}, subjects.persons};
+    tape.measured.parents = subjects.topology.parents;
+    tape.measured.feet = feet_among(subjects.topology.names);
+    tape.measured.fps = subjects.fps;
+    find_up(dataset, subjects, tape.measured);
+    return tape;
+} catch (const Error&) {
+    return {};  // its motions have no joint positions
+}
+
+bool fits(const MeasuringTape& tape, const MotionsInfo& motions) {
+    const auto& how = tape.body.representation;
+    return motions.representation == how && motions.joints == how.nodes(tape.body.topology) &&
+           motions.channels == tape.persons * how.numbers();
+}
+
+MeasuredSource::MeasuredSource(std::unique_ptr<MotionSource> from, const MeasuringTape& tape,
+                               kernels::Device& device)
+    : from_(std::move(from)), tape_(tape), device_(device) {}
+
+MotionBatch MeasuredSource::next() {
+    const auto batch = from_->next();
+    if (batch.rows.empty()) return batch;
+    const std::size_t one = std::size_t{info().channels} * batch.frames * info().joints;
+    auto values = batch.values;
+    if (batch.on_device) {
+        read_back_.resize(batch.rows.size() * one);
+        device_.queue().enqueueReadBuffer(*batch.on_device, CL_TRUE, 0, read_back_.size() * sizeof(float),
+                                          read_back_.data());
+        values = read_back_;
+    }
+    ingest::Motion motion;
+    motion.frames = batch.frames;
+    motion.persons = tape_.persons;
+    motion.nodes = info().joints;
+    motion.numbers = tape_.body.representation.numbers();
+    motion.values.resize(one);
+    for (std::size_t i = 0; i < batch.rows.size(); ++i) {
+        ingest::take_channels_first(values.subspan(i * one, one), motion);
+        measure(ingest::joint_positions(motion, tape_.body), batch.frames, tape_.persons, tape_.measured,
+                passed_);
+    }
+    rows_.insert(rows_.end(), batch.rows.begin(), batch.rows.end());
+    return batch;
+}
+
+MotionMeasures MeasuredSource::measures() const {
+    std::vector<std::size_t> order(rows_.size());
+    for (std::size_t i = 0; i < rows_.size(); ++i) order[rows_[i]] = i;
+    return subset(passed_, order);
+}
+
+void write_measures(const std::filesystem::path& path, const MotionMeasures& measures) {
+    hdf5::Writer file(measures.size() * (measures.columns + 3) * sizeof(float) + 65536);
+    const hsize_t n = measures.size();
+    const auto write = [&](const char* name, const std::vector<float>& values) {
+        if (!values.empty()) file.write<float>(name, {n, values.size() / n}, values);
+    };
+    write("limb_acceleration", measures.limb_acceleration);
+    write("root_acceleration", measures.root_acceleration);
+    write("foot_sliding", measures.foot_sliding);
+    write("distances", measures.distances);
+    file.image([&](std::string_view image) { write_whole(path, image); });
+}
+
+MotionMeasures read_measures(const std::filesystem::path& path) {
+    const hdf5::Reader file(path);
+    const auto read = [&](const char* name) {
+        return file.has(name) ? file.read<float>(name) : std::vector<float>();
+    };
+    MotionMeasures out{read("limb_acceleration"), read("root_acceleration"), read("foot_sliding"),
+                       read("distances"), 0};
+    if (!out.distances.empty()) out.columns = out.distances.size() / out.size();
+    return out;
+}
+
+}  // namespace actformer::eval
