@@ -82,20 +82,6 @@ PackedStack<T>& packed_backward(std::span<const GruCell<T>> cells, const GruFeed
     return packed;
 }
 
-/// The sum of what a frame's gates are given, but for what is fed back; rows (count, 3*hidden).
-template <typename T>
-void input_rows(const GruShape& shape, const GruInput<T>& input, std::int64_t frame, const Share& share,
-                T* to) {
-    const auto width = 3 * shape.hidden;
-    for (std::int64_t i = 0; i < share.count; ++i, to += width) {
-        const auto sample = share.first + i;
-        std::fill_n(to, width, T(0));
-        if (input.products) add_row(input.products + (frame * shape.samples + sample) * width, width, to);
-        if (input.of_sample) add_row(input.of_sample + sample * width, width, to);
-        if (input.of_frame) add_row(input.of_frame + frame * width, width, to);
-    }
-}
-
 /// One sample's new state out of what its gates are given, `in` (3*hidden), and its hidden products, `of_state` (3*hidden).
 template <typename T>
 void step_row(std::int64_t hidden, const T* in, const T* of_state, const T* before, T* state, T* gates) {
@@ -111,6 +97,18 @@ void step_row(std::int64_t hidden, const T* in, const T* of_state, const T* befo
         store(gates + 2 * hidden + i, z);
         store(gates + 3 * hidden + i, n);
     }
+}
+
+/// A cell's frame: see GruStep::run.
+template <typename T>
+void step_rows(std::int64_t hidden, const PackedMatrix<T>& weight, const T* bias, std::int64_t count,
+               const T* in, const T* before, T* state, T* gates) {
+    const auto width = 3 * hidden;
+    T* of_state = scratch<T>(HiddenRows{}, count * width);
+    product<T>(EvenRows<T>{before, hidden}, count, weight, width, StoreBiased<T>{of_state, width, bias});
+    for (std::int64_t i = 0; i < count; ++i)
+        step_row(hidden, in + i * width, of_state + i * width, before + i * hidden, state + i * hidden,
+                 gates ? gates + i * 4 * hidden : nullptr);
 }
 
 /// Of the gradient to a state, `grad`: those to the gates (4*hidden), and in `carried` the part to the state before that does not go
@@ -149,15 +147,16 @@ class ForwardPass {
           traces_(traces),
           packed_(packed),
           in_(scratch<T>(GateRows{}, share_.count * 3 * shape.hidden)),
-          of_state_(scratch<T>(HiddenRows{}, share_.count * 3 * shape.hidden)),
           fed_(feedback ? scratch<T>(FedRows{}, share_.count * feedback->numbers()) : nullptr),
           zeros_(zeroed_scratch<T>(NoState{}, share_.count * shape.hidden)),
-          no_bias_(zeroed_scratch<T>(NoBias{}, 3 * shape.hidden)) {}
+          no_bias_(zeroed_scratch<T>(NoBias{}, 3 * shape.hidden)) {
+        if (feedback) feedback->begin(share_.first, share_.count);
+    }
 
     void frame(std::int64_t t, const GruInput<T>& input) {
         if (share_.count == 0) return;
         const auto width = 3 * shape_.hidden;
-        input_rows(shape_, input, t, share_, in_);
+        gru_input_rows(shape_, input, t, share_.first, share_.count, in_);
         if (feedback_ && t > 0)
             product<T>(EvenRows<T>{fed_, feedback_->numbers()}, share_.count, packed_.feedback, width,
                        StoreAdded<T>{in_, in_, width, width, no_bias_});
@@ -176,15 +175,10 @@ class ForwardPass {
     }
 
     void cell(std::size_t l, std::int64_t t) {
-        const auto hidden = shape_.hidden, width = 3 * hidden;
-        const T* before = t > 0 ? states(l, t - 1) : zeros_;
-        product<T>(EvenRows<T>{before, hidden}, share_.count, packed_.cells[l].hidden, width,
-                   StoreBiased<T>{of_state_, width, cells_[l].hidden_bias});
         T* gates = traces_[l].gates;
-        if (gates) gates += (t * shape_.samples + share_.first) * 4 * hidden;
-        for (std::int64_t i = 0; i < share_.count; ++i)
-            step_row(hidden, in_ + i * width, of_state_ + i * width, before + i * hidden,
-                     states(l, t) + i * hidden, gates ? gates + i * 4 * hidden : nullptr);
+        if (gates) gates += (t * shape_.samples + share_.first) * 4 * shape_.hidden;
+        step_rows(shape_.hidden, packed_.cells[l].hidden, cells_[l].hidden_bias, share_.count, in_,
+                  t > 0 ? states(l, t - 1) : zeros_, states(l, t), gates);
     }
 
     GruShape shape_;
@@ -193,7 +187,7 @@ class ForwardPass {
     GruFeedback<T>* feedback_;
     std::span<const GruTrace<T>> traces_;
     const PackedStack<T>& packed_;
-    T *in_, *of_state_, *fed_, *zeros_, *no_bias_;
+    T *in_, *fed_, *zeros_, *no_bias_;
 };
 
 /// The same backward.
@@ -284,6 +278,30 @@ class BackwardPass {
 }  // namespace
 
 template <typename T>
+void gru_input_rows(const GruShape& shape, const GruInput<T>& input, std::int64_t frame, std::int64_t first,
+                    std::int64_t count, T* to) {
+    const auto width = 3 * shape.hidden;
+    for (std::int64_t i = 0; i < count; ++i, to += width) {
+        const auto sample = first + i;
+        std::fill_n(to, width, T(0));
+        if (input.products) add_row(input.products + (frame * shape.samples + sample) * width, width, to);
+        if (input.of_sample) add_row(input.of_sample + sample * width, width, to);
+        if (input.of_frame) add_row(input.of_frame + frame * width, width, to);
+    }
+}
+
+template <typename T>
+GruStep<T>::GruStep(std::int64_t hidden, const GruCell<T>& cell, int threads)
+    : hidden_(hidden), bias_(cell.hidden_bias) {
+    pack_forward(weight_, cell.hidden_weight, 3 * hidden, hidden, threads);
+}
+
+template <typename T>
+void GruStep<T>::run(std::int64_t count, const T* in, const T* before, T* state, T* gates) const {
+    step_rows(hidden_, weight_, bias_, count, in, before, state, gates);
+}
+
+template <typename T>
 void gru_forward(const GruShape& shape, const GruInput<T>& input, std::span<const GruCell<T>> cells,
                  GruFeedback<T>* feedback, std::span<const GruTrace<T>> traces, int threads) {
     const auto& packed = packed_forward(cells, feedback, shape.hidden, threads);
@@ -320,11 +338,15 @@ void gru_backward(const GruShape& shape, std::span<const GruCell<T>> cells, GruF
 }
 
 #define ACTFORMER_GRU(T)                                                                                   \
+    template void gru_input_rows<T>(const GruShape&, const GruInput<T>&, std::int64_t, std::int64_t,       \
+                                    std::int64_t, T*);                                                     \
     template void gru_forward<T>(const GruShape&, const GruInput<T>&, std::span<const GruCell<T>>,         \
                                  GruFeedback<T>*, std::span<const GruTrace<T>>, int);                      \
     template void gru_backward<T>(const GruShape&, std::span<const GruCell<T>>, GruFeedback<T>*,           \
                                   std::span<const GruTrace<T>>, const T*, std::span<const GruGradient<T>>, \
                                   T*, int);
+template class GruStep<float>;
+template class GruStep<double>;
 ACTFORMER_GRU(float)
 ACTFORMER_GRU(double)
 

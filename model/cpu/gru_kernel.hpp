@@ -13,6 +13,8 @@
 #include <cstdint>
 #include <span>
 
+#include "model/cpu/products.hpp"
+
 namespace actformer::model::cpu {
 
 struct GruShape {
@@ -51,6 +53,9 @@ class GruFeedback {
     virtual std::int64_t numbers() const = 0;  ///< that are fed back
     virtual const T* weight() const = 0;  ///< (3*hidden, numbers), which the first cell's gates get of them
 
+    /// Before the first frame, of samples from `first` on.
+    virtual void begin(std::int64_t /*first*/, std::int64_t /*count*/) {}
+
     /// states (count, hidden) of frame `frame`, samples from `first` on -> fed (count, numbers), for the next frame.
     virtual void forward(std::int64_t frame, std::int64_t first, std::int64_t count, const T* states,
                          T* fed) = 0;
@@ -58,6 +63,27 @@ class GruFeedback {
     /// grad_fed (count, numbers), null behind the last frame -> grad_states (count, hidden), overwritten.
     virtual void backward(std::int64_t frame, std::int64_t first, std::int64_t count, const T* grad_fed,
                           T* grad_states) = 0;
+};
+
+/// A frame of what the first cell's gates are given, but for what is fed back: to (count, 3*hidden), samples from `first` on.
+template <typename T>
+void gru_input_rows(const GruShape& shape, const GruInput<T>& input, std::int64_t frame, std::int64_t first,
+                    std::int64_t count, T* to);
+
+/// One cell by itself, a frame at a time.
+template <typename T>
+class GruStep {
+  public:
+    GruStep(std::int64_t hidden, const GruCell<T>& cell, int threads);
+
+    /// in (count, 3*hidden) what the gates are given, before (count, hidden) -> state (count, hidden), which may be `before`; gates
+    /// (count, 4*hidden) as in GruTrace, or null.
+    void run(std::int64_t count, const T* in, const T* before, T* state, T* gates) const;
+
+  private:
+    std::int64_t hidden_;
+    const T* bias_;
+    PackedMatrix<T> weight_;
 };
 
 /// `feedback` may be null.

@@ -8,6 +8,7 @@
 #include "model/cpu/gru_kernel.hpp"
 #include "model/cpu/layer_clock.hpp"
 #include "model/cpu/pose_feedback.hpp"
+#include "model/cpu/pose_sampler.hpp"
 #include "model/nn/tensor_numbers.hpp"
 
 namespace actformer::model {
@@ -365,6 +366,48 @@ FusedPoses fused_fed_back_poses(const GruInputs& inputs, const std::vector<GruTe
                                          bends ? bent.bones.contiguous() : none,
                                          c10::make_intrusive<Bending>(bent.chains, bent.feeds_joints));
     return {out[0], bends ? out[1] : at::Tensor()};
+}
+
+FusedPoses fused_sampled_poses(const PriorTensors& prior, const GruInputs& inputs,
+                               const std::vector<GruTensors>& cells, const at::Tensor& weight,
+                               const LinearTensors& head, const BentTensors& bent, const at::Tensor& noise) {
+    const at::NoGradGuard no_gradients;
+    const auto width = 3 * cells[0].hidden.weight.size(1);
+    auto with_products = inputs;
+    with_products.products = at::empty({noise.size(0), noise.size(1), width}, noise.options());
+    const auto tensors = tensors_of(with_products, cells), of_prior = tensors_of(prior.inputs, {prior.cell});
+    Stack stack(tensors, cells.size());
+    stack.make_traces(false);
+    const Stack prior_stack(of_prior, 1);
+    const auto none = at::empty({0}, noise.options());
+    const bool bends = bent.chains != nullptr;
+    const PoseTensors poses{weight.contiguous(),
+                            head.weight,
+                            head.bias,
+                            bends ? bent.weight.weight : none,
+                            bends ? bent.weight.bias : none,
+                            bends ? bent.bones.contiguous() : none};
+    const PoseTraces trace(stack, head.weight.size(0), bends);
+    const auto pose = prior.pose.contiguous(), latent = prior.latent.contiguous(),
+               normals = noise.contiguous();
+    const LayerTimer timer("GRU, sampled");
+    by_type(noise, [&](auto number) {
+        using T = decltype(number);
+        const cpu::PriorWeights<T> weights{prior_stack.input<T>(),
+                                           prior_stack.weights<T>()[0],
+                                           in<T>(pose),
+                                           {in<T>(prior.head.weight), in<T>(prior.head.bias)},
+                                           in<T>(latent),
+                                           in<T>(normals),
+                                           noise.size(2)};
+        with_feedback<T>(stack, poses, Bending(bent.chains, bent.feeds_joints), trace, nullptr,
+                         [&](cpu::PoseFeedback<T>& feedback) {
+                             cpu::PoseSampler<T> sampler(stack.shape, feedback, weights,
+                                                         in<T>(stack.tensors[0]), at::get_num_threads());
+                             stack.run<T>(&sampler);
+                         });
+    });
+    return {trace.out, trace.joints};
 }
 
 at::Tensor fused_bent_joints(const cpu::Chains& chains, const at::Tensor& poses, const at::Tensor& bones) {

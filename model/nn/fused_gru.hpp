@@ -42,6 +42,22 @@ struct FusedPoses {
 FusedPoses fused_fed_back_poses(const GruInputs& inputs, const std::vector<GruTensors>& cells,
                                 const at::Tensor& weight, const LinearTensors& head, const BentTensors& bent);
 
+/// What a learnt prior is made of: its cell, what its gates are given (no products), get of the last pose, `pose` (3*hidden, numbers), and
+/// what becomes of its state: head (2*latent, hidden), means, then logarithms of variances. latent (3*hidden, latent) is what the
+/// decoder's gates get of what is drawn.
+struct PriorTensors {
+    GruInputs inputs;
+    GruTensors cell;
+    at::Tensor pose;
+    LinearTensors head;
+    at::Tensor latent;
+};
+
+/// The same as fused_fed_back_poses with latents that the prior draws frame by frame; noise (T, N, latent). Not differentiable.
+FusedPoses fused_sampled_poses(const PriorTensors& prior, const GruInputs& inputs,
+                               const std::vector<GruTensors>& cells, const at::Tensor& weight,
+                               const LinearTensors& head, const BentTensors& bent, const at::Tensor& noise);
+
 /// poses (M, 3J), bones (M, J) -> joints (M, 3J), as cpu::bend_forward. No gradient to the bones.
 at::Tensor fused_bent_joints(const cpu::Chains& chains, const at::Tensor& poses, const at::Tensor& bones);
 

@@ -169,6 +169,15 @@ Distribution Network::distribution_of_all(const std::string& network, const at::
     return distribution(network, fused_gru(gates.inputs(labels, poses.size(0), products), cells(network, 1)));
 }
 
+/// A Lie body's rotations; bones (T, N, joints).
+BentTensors Network::bent(const at::Tensor& bones) const {
+    if (!chains_) return {};
+    return {{weights_.at("decoder.output_lie.weight"), weights_.at("decoder.output_lie.bias")},
+            &*chains_,
+            bones,
+            settings_.feedback == Feedback::joints};
+}
+
 /// What the decoder makes of its own outputs, or of the poses before, `seen` (T, N, D).
 std::pair<at::Tensor, at::Tensor> Network::decoded(const at::Tensor& real, const at::Tensor& seen,
                                                    const at::Tensor& labels, const at::Tensor& latents,
@@ -180,15 +189,10 @@ std::pair<at::Tensor, at::Tensor> Network::decoded(const at::Tensor& real, const
     const auto inputs = gates.inputs(labels, frames, products);
     const auto lengths = chains_ ? bone_lengths(*chains_, real.flatten(0, 1)) : at::Tensor();
     if (own) {
-        BentTensors bent;
-        if (chains_)
-            bent = {{weights_.at("decoder.output_lie.weight"), weights_.at("decoder.output_lie.bias")},
-                    &*chains_,
-                    lengths.view({frames, samples, -1}),
-                    settings_.feedback == Feedback::joints};
-        const auto poses = fused_fed_back_poses(
-            inputs, cells("decoder", 2), gates.of_poses(),
-            {weights_.at("decoder.output.weight"), weights_.at("decoder.output.bias")}, bent);
+        const auto poses =
+            fused_fed_back_poses(inputs, cells("decoder", 2), gates.of_poses(),
+                                 {weights_.at("decoder.output.weight"), weights_.at("decoder.output.bias")},
+                                 bent(chains_ ? lengths.view({frames, samples, -1}) : lengths));
         return {poses.out, chains_ ? poses.joints : poses.out};
     }
     const auto out = headed(fused_gru(inputs, cells("decoder", 2)));
@@ -212,6 +216,33 @@ Outcome Network::all_at_once(const at::Tensor& real, const at::Tensor& labels, c
 at::Tensor Network::generate(const at::Tensor& labels, const at::Tensor& noise,
                              const at::Tensor& bones) const {
     const at::NoGradGuard no_gradients;
+    return weights_.fused && noise.is_cpu() ? generate_at_once(labels, noise, bones)
+                                            : generate_frame_by_frame(labels, noise, bones);
+}
+
+at::Tensor Network::generate_at_once(const at::Tensor& labels, const at::Tensor& noise,
+                                     const at::Tensor& bones) const {
+    const Gates of_prior(*this, "prior_net"), of_decoder(*this, "decoder");
+    const auto frames = noise.size(0);
+    const auto both = [&](const char* what) {
+        return at::cat({weights_.at(std::string("prior_net.mu_net.") + what),
+                        weights_.at(std::string("prior_net.logvar_net.") + what)});
+    };
+    const PriorTensors prior{of_prior.inputs(labels, frames),
+                             cells("prior_net", 1)[0],
+                             of_prior.of_poses(),
+                             {both("weight"), both("bias")},
+                             of_decoder.of_latents()};
+    const auto lengths =
+        chains_ ? bones.unsqueeze(0).expand({frames, bones.size(0), bones.size(1)}) : at::Tensor();
+    const auto made = fused_sampled_poses(
+        prior, of_decoder.inputs(labels, frames), cells("decoder", 2), of_decoder.of_poses(),
+        {weights_.at("decoder.output.weight"), weights_.at("decoder.output.bias")}, bent(lengths), noise);
+    return chains_ ? made.joints : made.out;
+}
+
+at::Tensor Network::generate_frame_by_frame(const at::Tensor& labels, const at::Tensor& noise,
+                                            const at::Tensor& bones) const {
     auto seen =
         at::zeros({labels.size(0), settings_.numbers()}, weights_.at("decoder.output.bias").options());
     Stack prior(*this, "prior_net", 1, seen), decoder(*this, "decoder", 2, seen);

@@ -59,6 +59,11 @@ class Network : public torch::nn::Module {
                            bool own) const;
     Outcome all_at_once(const at::Tensor& real, const at::Tensor& labels, const at::Tensor& noise,
                         bool own) const;
+    at::Tensor generate_at_once(const at::Tensor& labels, const at::Tensor& noise,
+                                const at::Tensor& bones) const;
+    at::Tensor generate_frame_by_frame(const at::Tensor& labels, const at::Tensor& noise,
+                                       const at::Tensor& bones) const;
+    BentTensors bent(const at::Tensor& bones) const;
     std::vector<GruTensors> cells(const std::string& network, int count) const;
     Distribution distribution_of_all(const std::string& network, const at::Tensor& poses,
                                      const at::Tensor& labels) const;
