@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 struct Options : MotionOptions {
     std::filesystem::path out;
+    std::optional<std::uint64_t> initial_noise;
     bool json = false;
 };
 
@@ -38,7 +40,8 @@ void print(const Options& options, const eval::FeaturesSummary& s) {
 
 void run(const Options& options) {
     kernels::Device device(options.device);
-    eval::FeatureExtractor extractor(device, options.recogniser, options.batch);
+    eval::FeatureExtractor extractor(device, options.recogniser, options.batch,
+                                     eval::FeatureExtractor::Persons::together, options.initial_noise);
     const auto motions = options.open(device, extractor);
     Progress progress("features", "sequences", options.json);
     const eval::FeaturesTarget target{&extractor, options.out};
@@ -57,6 +60,11 @@ void add_features(CLI::App& app) {
     auto* command = app.add_subcommand("features", "Features and logits of motions or of a dataset's split");
     add_motion_options(command, *options);
     command->add_option("-o,--out", options->out, "HDF5 file to make")->required()->type_name("FEATURES.h5");
+    command
+        ->add_option(
+            "--initial-noise", options->initial_noise,
+            "Seed of the states that a GRU recogniser begins with, as published (default: they begin at 0)")
+        ->type_name("SEED");
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer features --recogniser run generated.h5 -o generated-features.h5\n"

@@ -257,6 +257,11 @@ void add_motion_options(CLI::App* command, Options& options) {
             "--single-recogniser", request.single_recogniser,
             "One-person recogniser, for FIDa of motions of several persons; alone, nothing else is measured")
         ->type_name("RUN|WEIGHTS.h5");
+    command
+        ->add_option(
+            "--initial-noise", request.initial_noise,
+            "Seed of the states that a GRU recogniser begins with, as published (default: they begin at 0)")
+        ->type_name("SEED");
     command->add_option("--real", request.real.dataset, "Dataset of real clips")->type_name("DATASET");
     command->add_option("--split", request.real.split, "Split of the dataset")->capture_default_str();
     command->add_option("--generated", options.generated, "Motions to score, each file a repeat")

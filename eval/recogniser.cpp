@@ -4,19 +4,31 @@
 
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
+#include "eval/gru/recogniser.hpp"
 #include "eval/stgcn/recogniser.hpp"
 #include "kernels/buffer.hpp"
 
 namespace actformer::eval {
 namespace {
 
-using Open = std::unique_ptr<Recogniser> (*)(kernels::Device&, const std::filesystem::path&, std::uint32_t);
+using Noise = std::optional<std::uint64_t>;
+using Open = std::unique_ptr<Recogniser> (*)(kernels::Device&, const std::filesystem::path&, std::uint32_t,
+                                             Noise);
 
 struct Kind {
     const char* name;
     Open open;
 };
-constexpr std::array kinds{Kind{"stgcn", open_stgcn}};
+
+std::unique_ptr<Recogniser> open_stgcn_without_noise(kernels::Device& device,
+                                                     const std::filesystem::path& weights,
+                                                     std::uint32_t batch, Noise initial_noise) {
+    if (initial_noise)
+        throw Error("{}: an ST-GCN has no initial state; leave --initial-noise out", weights.string());
+    return open_stgcn(device, weights, batch);
+}
+
+constexpr std::array kinds{Kind{"stgcn", open_stgcn_without_noise}, Kind{"gru", open_gru}};
 
 std::string text_of(const hdf5::Reader& file, const std::string& attribute) {
     const auto texts = file.attribute_texts(attribute);
@@ -53,11 +65,11 @@ Recognised Recogniser::recognise(std::span<const float> motions, std::uint32_t s
 }
 
 std::unique_ptr<Recogniser> open_recogniser(kernels::Device& device, const std::filesystem::path& weights,
-                                            std::uint32_t batch) {
+                                            std::uint32_t batch, Noise initial_noise) {
     const auto name = kind_of(weights);
     std::string known;
     for (const auto& kind : kinds) {
-        if (name == kind.name) return kind.open(device, weights, batch);
+        if (name == kind.name) return kind.open(device, weights, batch, initial_noise);
         known += (known.empty() ? "" : ", ") + std::string(kind.name);
     }
     throw Error("{}: attribute 'kind' is '{}', and the recognisers known are: {}", weights.string(), name,

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -71,9 +72,11 @@ class Recogniser {
 };
 
 /// Opens a weights file on `device`, which must outlive the recogniser. The attribute `kind` decides which network it is; a
-/// file without one is an ST-GCN. `batch`: the most sequences that anyone will ask of it at once. Throws Error, one line naming
-/// the file, for another kind, and as the network's reader says.
+/// file without one is an ST-GCN. `batch`: the most sequences that anyone will ask of it at once. `initial_noise`: the seed of the
+/// states that a GRU begins with, as Action2Motion's classifier has them; others have none. Throws Error, one line naming the file, for
+/// another kind, for noise that it has no use for, and as the network's reader says.
 std::unique_ptr<Recogniser> open_recogniser(kernels::Device& device, const std::filesystem::path& weights,
-                                            std::uint32_t batch = 64);
+                                            std::uint32_t batch = 64,
+                                            std::optional<std::uint64_t> initial_noise = {});
 
 }  // namespace actformer::eval

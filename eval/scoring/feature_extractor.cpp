@@ -20,10 +20,11 @@ bool same_tree(const std::vector<int>& recogniser, const std::vector<int>& skele
 }  // namespace
 
 FeatureExtractor::FeatureExtractor(kernels::Device& device, const std::filesystem::path& recogniser,
-                                   std::uint32_t batch, Persons persons)
+                                   std::uint32_t batch, Persons persons,
+                                   std::optional<std::uint64_t> initial_noise)
     : weights_(weights_of(recogniser)),
-      checksum_(checksum_file(weights_)),
-      recogniser_(open_recogniser(device, weights_, batch)),
+      checksum_(checksum_file(weights_) + (initial_noise ? fmt::format(" noise {}", *initial_noise) : "")),
+      recogniser_(open_recogniser(device, weights_, batch, initial_noise)),
       persons_(persons) {}
 
 ingest::Joints FeatureExtractor::joints_of(const MotionsInfo& motions) const {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "eval/recogniser.hpp"
@@ -19,12 +20,13 @@ class FeatureExtractor {
     enum class Persons { together, apart };
 
     /// `recogniser`: folder of a training, or weights (see weights_of). `batch`: the most motions that will be shown together.
-    /// `device` must outlive the extractor. Throws Error as open_recogniser does.
+    /// `initial_noise`: see open_recogniser. `device` must outlive the extractor. Throws Error as open_recogniser does.
     FeatureExtractor(kernels::Device& device, const std::filesystem::path& recogniser,
-                     std::uint32_t batch = 64, Persons persons = Persons::together);
+                     std::uint32_t batch = 64, Persons persons = Persons::together,
+                     std::optional<std::uint64_t> initial_noise = {});
 
     const std::filesystem::path& weights() const { return weights_; }
-    const std::string& checksum() const { return checksum_; }  ///< of the weights
+    const std::string& checksum() const { return checksum_; }  ///< of the weights, and with noise its seed
     const RecogniserInfo& recogniser() const { return recogniser_->info(); }
     Persons persons() const { return persons_; }
     std::uint32_t features() const { return recogniser().features; }

@@ -58,7 +58,9 @@ class Sides {
           progress_(progress),
           dataset_(request.real.dataset),
           tape_(tape_for(dataset_)) {
-        if (!request.recogniser.empty()) whole_.emplace(device, request.recogniser, request.real.batch);
+        if (!request.recogniser.empty())
+            whole_.emplace(device, request.recogniser, request.real.batch, Persons::together,
+                           request.initial_noise);
         if (!request.single_recogniser.empty())
             single_.emplace(device, request.single_recogniser, request.real.batch, Persons::apart);
         check();

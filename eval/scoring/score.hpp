@@ -16,6 +16,7 @@ struct ScoreMotions {
     /// One-person recogniser for FIDa of several persons; may be empty. One of the 15 common joints sees those of any skeleton
     /// that has them.
     std::filesystem::path single_recogniser;
+    std::optional<std::uint64_t> initial_noise;  ///< of the recogniser: see open_recogniser
     WindowsOptions real;
     std::vector<MotionSet> generated;  ///< one a repeat
 

@@ -1,0 +1,41 @@
+// The GRU classifier on an OpenCL device. It sees a dataset's own numbers, without what the root's first frame says: of joints'
+// positions what Action2Motion's sees, of limbs and rotations their numbers.
+#pragma once
+
+#include <optional>
+
+#include "eval/gru/weights.hpp"
+#include "eval/recogniser.hpp"
+#include "kernels/gru.hpp"
+
+namespace actformer::eval {
+
+class GruRecogniser final : public Recogniser {
+  public:
+    /// States begin at 0, or with `initial_noise` as published: at normal numbers, a function of that seed and of how many sequences the
+    /// recogniser has seen, so that scores of the same motions differ. At most `batch` sequences go to the device at once.
+    GruRecogniser(kernels::Device& device, const GruFile& weights, std::uint32_t batch,
+                  std::optional<std::uint64_t> initial_noise);
+
+    using Recogniser::recognise;
+    Recognised recognise(const cl::Buffer& motions, std::uint32_t sequences, std::uint32_t frames) override;
+
+  private:
+    void run(const cl::Buffer& motions, std::uint32_t begin, std::uint32_t count, std::uint32_t frames,
+             const kernels::Buffer<float>& features);
+    kernels::Buffer<float> initial(std::uint32_t count, std::size_t layer) const;
+
+    GruNetwork network_;
+    std::uint32_t batch_;
+    std::optional<std::uint64_t> noise_;
+    std::uint64_t seen_ = 0;  ///< sequences so far
+    kernels::Gru kernels_;
+    std::vector<kernels::GruWeights> layers_;
+    kernels::Buffer<float> feature_weight_, feature_bias_, class_weight_, class_bias_;
+};
+
+/// As open_recogniser() does.
+std::unique_ptr<Recogniser> open_gru(kernels::Device& device, const std::filesystem::path& weights,
+                                     std::uint32_t batch, std::optional<std::uint64_t> initial_noise);
+
+}  // namespace actformer::eval
