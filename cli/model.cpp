@@ -58,12 +58,18 @@ std::pair<model::Config, model::MotionSpec> read(model::Config config, const Opt
 }
 
 std::vector<model::NetworkSummary> networks_of(const Options& options) {
-    if (model::model_named_in(options.config) != "recogniser") {
+    const auto named = model::model_named_in(options.config);
+    if (named != "recogniser" && named != "stgcn" && named != "gru") {
         const auto [config, spec] = read(model::read_generator_config(options.config), options);
         return model::method_named(config.model(), options.config).networks(config, spec);
     }
-    const auto [config, spec] = read(model::recogniser_config(), options);
+    const auto kind = model::recogniser_kind_in(options.config);
+    const auto [config, spec] = read(model::recogniser_config(kind), options);
     const auto settings = model::recogniser_settings(config);
+    if (kind == model::RecogniserKind::gru)
+        return {{"recogniser", model::gru_summary(model::gru_for(settings, spec.representation, spec.topology,
+                                                                 spec.persons, spec.classes, spec.where),
+                                                  settings.frames)}};
     const auto network = model::network_for(settings, spec.representation, spec.topology, spec.persons,
                                             spec.classes, spec.where);
     return {{"recogniser", model::stgcn_summary(network, settings.frames)}};

@@ -1,4 +1,4 @@
-// actformer train recogniser: trains the ST-GCN in a run folder.
+// actformer train recogniser: trains an ST-GCN or a GRU classifier in a run folder.
 #include "model/recognisers/train_recogniser.hpp"
 
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ void print_text(const model::RecogniserResult& result, const std::string& split)
 }
 
 void run(const TrainingOptions& options) {
-    const auto config = options.read(model::recogniser_config());
+    const auto config = options.read(model::recogniser_config(model::recogniser_kind_in(options.config)));
     TrainingDisplay display(config.get<std::int64_t>("epochs"));
     const auto result = model::train_recogniser(config, options.run, display.events());
     display.clear();
@@ -56,13 +56,16 @@ void run(const TrainingOptions& options) {
 
 void add_train_recogniser(CLI::App& train) {
     auto options = std::make_shared<TrainingOptions>();
-    auto* command = train.add_subcommand("recogniser", "Train the ST-GCN action recogniser");
+    auto* command = train.add_subcommand(
+        "recogniser",
+        "Train an action recogniser: ST-GCN, or with model: gru Action2Motion's GRU classifier");
     add_training_options(command, *options);
     examples(command,
              "  actformer train recogniser -c model/configs/recogniser-ntu-1p.yaml --data ntu/ntu-1p -o "
              "recogniser\n"
              "  actformer train recogniser -c model/configs/recogniser-small.yaml --data bnr10 -o small "
-             "train_split=xstyle/test test_split=xstyle/train epochs=10\n");
+             "train_split=xstyle/test test_split=xstyle/train epochs=10\n"
+             "  actformer train recogniser -c model/configs/recogniser-gru.yaml --data humanact12 -o gru\n");
     command->callback([options] { run(*options); });
 }
 

@@ -1,24 +1,24 @@
 #include "model/recognisers/learner.hpp"
 
-#include "model/nn/module_arrays.hpp"
-#include "model/nn/tensor_array.hpp"
 #include "model/train/training.hpp"
 
 namespace actformer::model {
 
-RecogniserLearner::RecogniserLearner(const RecogniserSettings& settings, const StgcnSettings& network,
+RecogniserLearner::RecogniserLearner(const RecogniserSettings& settings,
+                                     std::unique_ptr<RecogniserNetwork> network, std::size_t classes,
                                      const LearnerSetup& setup)
     : settings_(settings),
       device_(setup.device),
-      net_(network, settings.seed, device_, torch_type(settings.precision)),
-      sgd_(net_.trained(), {settings.momentum, settings.weight_decay, settings.nesterov}),
+      table_(setup.clips.table()),
+      classes_(classes),
+      network_(std::move(network)),
       feed_(setup.clips, {settings.seed, kernels::ClassSampling::plain, true}, settings.batch,
             settings.frames),
       sums_(at::zeros({2}, at::TensorOptions(at::kDouble).device(device_))) {}
 
 at::Tensor RecogniserLearner::values_of(const Windows& windows) const {
-    const auto& network = net_.settings();
-    return model::values_of(windows, network.channels, settings_.frames, network.graph.joints(), device_)
+    return model::values_of(windows, std::int64_t{table_.persons} * table_.numbers, settings_.frames,
+                            table_.nodes, device_)
         .to(torch_type(settings_.precision));
 }
 
@@ -26,12 +26,12 @@ void RecogniserLearner::step(std::uint64_t step, double rate_share) {
     rate_ = settings_.rate * rate_share;
     const auto windows = feed_.batch(step);
     const auto labels = labels_of(windows, device_);
-    const auto output = net_.train_forward(values_of(windows), step_seed(settings_.seed, step));
-    const auto loss = at::cross_entropy_loss(output.logits, labels);
+    const auto logits = network_->train_logits(values_of(windows), step_seed(settings_.seed, step));
+    const auto loss = at::cross_entropy_loss(logits, labels);
     loss.backward();
-    sgd_.step(rate_);
+    network_->descend(rate_);
     sums_[0] += loss.detach();
-    sums_[1] += output.logits.detach().argmax(1).eq(labels).sum();
+    sums_[1] += logits.detach().argmax(1).eq(labels).sum();
 }
 
 Measures RecogniserLearner::losses(const std::vector<double>& sums, std::uint64_t steps) const {
@@ -41,32 +41,10 @@ Measures RecogniserLearner::losses(const std::vector<double>& sums, std::uint64_
             {"train_accuracy", "trained", sums[1] / (n * settings_.batch)}};
 }
 
-bool RecogniserLearner::finite() {
-    for (const auto& info : net_.infos())
-        if (!at::isfinite(net_.weight(info.name)).all().item<bool>()) return false;
-    return true;
-}
-
-std::vector<Array> RecogniserLearner::state() {
-    auto arrays = net_.arrays();
-    std::size_t i = 0;
-    for (const auto& tensor : sgd_.momenta())
-        arrays.push_back(array_of(fmt::format("momentum.{}", i++), tensor));
-    return arrays;
-}
-
-void RecogniserLearner::load(const std::vector<Array>& state, std::uint64_t /*steps*/,
-                             const std::string& where) {
-    net_.load(state, where);
-    std::size_t i = 0;
-    for (const auto& tensor : sgd_.momenta())
-        copy_into(tensor, array_named(state, fmt::format("momentum.{}", i++), where), where);
-}
-
 eval::Confusion RecogniserLearner::confusion_on(const kernels::ClipStore& clips) const {
-    eval::Confusion confusion(net_.settings().classes);
+    eval::Confusion confusion(classes_);
     for_each_window(clips, settings_.batch, settings_.frames, [&](const Windows& windows) {
-        const auto guesses = net_.eval_forward(values_of(windows)).logits.argmax(1).to(at::kCPU);
+        const auto guesses = network_->logits(values_of(windows)).argmax(1).to(at::kCPU);
         const auto* guess = guesses.data_ptr<std::int64_t>();
         for (std::uint32_t i = 0; i < windows.count; ++i)
             confusion.add(windows.labels[i], static_cast<std::size_t>(guess[i]));

@@ -1,10 +1,8 @@
-// The ST-GCN in the training loop, and its scores on a test split. Includes torch headers.
+// A recogniser in the training loop, and its scores on a test split. Includes torch headers.
 #pragma once
 
 #include "eval/metrics/confusion.hpp"
-#include "model/nn/sgd.hpp"
-#include "model/recognisers/recogniser_settings.hpp"
-#include "model/recognisers/stgcn_net.hpp"
+#include "model/recognisers/network.hpp"
 #include "model/train/scorer.hpp"
 #include "model/train/window_feed.hpp"
 
@@ -12,18 +10,20 @@ namespace actformer::model {
 
 class RecogniserLearner : public Learner {
   public:
-    RecogniserLearner(const RecogniserSettings& settings, const StgcnSettings& network,
-                      const LearnerSetup& setup);
+    RecogniserLearner(const RecogniserSettings& settings, std::unique_ptr<RecogniserNetwork> network,
+                      std::size_t classes, const LearnerSetup& setup);
 
     std::uint64_t windows_a_step() const override { return settings_.batch; }
     void step(std::uint64_t step, double rate_share) override;
     at::Tensor& sums() override { return sums_; }
     Measures losses(const std::vector<double>& sums, std::uint64_t steps) const override;
-    bool finite() override;
-    std::vector<Array> state() override;
-    void load(const std::vector<Array>& state, std::uint64_t steps, const std::string& where) override;
+    bool finite() override { return network_->finite(); }
+    std::vector<Array> state() override { return network_->state(); }
+    void load(const std::vector<Array>& state, std::uint64_t steps, const std::string& where) override {
+        network_->load(state, steps, where);
+    }
     void share(std::uint64_t /*steps*/) override {}  // by one process
-    std::vector<Array> weights() override { return net_.arrays(); }
+    std::vector<Array> weights() override { return network_->weights(); }
 
     /// What it takes every window of `clips` for.
     eval::Confusion confusion_on(const kernels::ClipStore& clips) const;
@@ -33,8 +33,9 @@ class RecogniserLearner : public Learner {
 
     RecogniserSettings settings_;
     at::Device device_;
-    StgcnNet net_;
-    Sgd sgd_;
+    const kernels::ClipTable& table_;
+    std::size_t classes_;
+    std::unique_ptr<RecogniserNetwork> network_;
     RandomFeed feed_;
     double rate_ = 0;  ///< of the last step
     at::Tensor sums_;  ///< [loss, windows recognised]

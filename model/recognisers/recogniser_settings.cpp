@@ -58,19 +58,45 @@ const KeyTable<RecogniserSettings>& table() {
     return all;
 }
 
-}  // namespace
+/// Presets of the GRU classifier. How the published one was trained is not known.
+struct GruPresets : RecogniserSettings {
+    GruPresets() {
+        kind = RecogniserKind::gru;
+        epochs = 200;
+        rate_drops = {};
+        rate = 0.001;
+        weight_decay = 0;
+    }
+};
 
-Config recogniser_config() {
-    return {"recogniser", table().keys()};
+const KeyTable<GruPresets>& gru_table() {
+    using Settings = RecogniserSettings;
+    static const auto all = [] {
+        KeyTable<GruPresets> keys;
+        keys.add(&Settings::persons, {.name = "persons",
+                                      .meaning = "persons a clip; 0 takes the dataset's",
+                                      .least = 0,
+                                      .most = 16})
+            .add(&Settings::classes,
+                 {.name = "classes", .meaning = "classes; 0 takes the dataset's", .least = 0, .most = 100000})
+            .add(&Settings::frames,
+                 {.name = "frames", .meaning = "frames a window", .least = 1, .most = 4096})
+            .add(&Settings::rate,
+                 {.name = "rate", .meaning = "learning rate of Adam at the start", .least = 0, .most = 100})
+            .add(&Settings::weight_decay, {.name = "weight_decay",
+                                           .meaning = "times each weight, added to its gradient",
+                                           .least = 0,
+                                           .most = 1})
+            .add(&Settings::test_split,
+                 {.name = "test_split", .meaning = "clips to score after every epoch; empty scores none"});
+        add_trainer_keys(keys);
+        return keys;
+    }();
+    return all;
 }
 
-RecogniserSettings recogniser_settings(const Config& config) {
-    return table().read(config);
-}
-
-StgcnSettings network_for(const RecogniserSettings& settings, ingest::Representation representation,
-                          const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
-                          const std::string& dataset) {
+void check_motions(const RecogniserSettings& settings, std::uint32_t persons, std::size_t classes,
+                   const std::string& dataset) {
     if (settings.persons != 0 && settings.persons != persons)
         throw Error("{}: {} person{} a clip, but the configuration says persons: {}", dataset, persons,
                     persons == 1 ? "" : "s", settings.persons);
@@ -80,6 +106,28 @@ StgcnSettings network_for(const RecogniserSettings& settings, ingest::Representa
     if (classes < 2)
         throw Error("{}: {} class{}; telling classes apart needs at least 2", dataset, classes,
                     classes == 1 ? "" : "es");
+}
+
+}  // namespace
+
+Config recogniser_config(RecogniserKind kind) {
+    return kind == RecogniserKind::gru ? Config("gru", gru_table().keys())
+                                       : Config("recogniser", table().keys(), {"stgcn"});
+}
+
+RecogniserKind recogniser_kind_in(const std::filesystem::path& file) {
+    return model_named_in(file) == "gru" ? RecogniserKind::gru : RecogniserKind::stgcn;
+}
+
+RecogniserSettings recogniser_settings(const Config& config) {
+    if (config.model() == "gru") return gru_table().read(config);
+    return table().read(config);
+}
+
+StgcnSettings network_for(const RecogniserSettings& settings, ingest::Representation representation,
+                          const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
+                          const std::string& dataset) {
+    check_motions(settings, persons, classes, dataset);
     StgcnSettings network;
     network.representation = representation;
     network.channels = representation.numbers() * persons;
@@ -88,6 +136,14 @@ StgcnSettings network_for(const RecogniserSettings& settings, ingest::Representa
     network.width = settings.width;
     network.dropout = settings.dropout;
     return network;
+}
+
+GruSettings gru_for(const RecogniserSettings& settings, ingest::Representation representation,
+                    const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
+                    const std::string& dataset) {
+    check_motions(settings, persons, classes, dataset);
+    return {representation.numbers() * persons, static_cast<std::uint32_t>(classes),
+            representation.node_parents(topology), representation};
 }
 
 }  // namespace actformer::model

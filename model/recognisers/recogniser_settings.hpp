@@ -2,21 +2,27 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 
 #include "ingest/dataset/common_joints.hpp"
+#include "model/recognisers/gru.hpp"
 #include "model/recognisers/stgcn.hpp"
 #include "model/train/trainer_settings.hpp"
 
 namespace actformer::model {
 
-/// Of the public ST-GCN and its training.
+enum class RecogniserKind { stgcn, gru };
+
+/// Of the public ST-GCN and its training. The GRU classifier, whose width is fixed, moves by Adam and has no use for width, dropout,
+/// momentum and nesterov.
 struct RecogniserSettings : TrainerSettings {
     RecogniserSettings() {
         epochs = 80;
         rate_drops = {10, 50};
         rate_factor = 0.1;
     }
+    RecogniserKind kind = RecogniserKind::stgcn;
     std::string test_split;                  ///< may be empty: nothing is scored then
     std::uint32_t persons = 0, classes = 0;  ///< 0: as the dataset has them
     std::string joints = "own";  ///< or "common15", those that skeletons of several datasets share
@@ -32,7 +38,11 @@ struct RecogniserSettings : TrainerSettings {
     double rate_at(std::uint64_t epoch) const { return rate * rate_share(epoch); }
 };
 
-Config recogniser_config();
+/// Every key at its preset, of an ST-GCN (`model: recogniser`) or a GRU classifier (`model: gru`).
+Config recogniser_config(RecogniserKind kind = RecogniserKind::stgcn);
+
+/// A configuration file's kind, by its line `model:`.
+RecogniserKind recogniser_kind_in(const std::filesystem::path& file);
 
 RecogniserSettings recogniser_settings(const Config& config);
 
@@ -41,5 +51,8 @@ RecogniserSettings recogniser_settings(const Config& config);
 StgcnSettings network_for(const RecogniserSettings& settings, ingest::Representation representation,
                           const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
                           const std::string& dataset);
+GruSettings gru_for(const RecogniserSettings& settings, ingest::Representation representation,
+                    const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
+                    const std::string& dataset);
 
 }  // namespace actformer::model

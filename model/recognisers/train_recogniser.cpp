@@ -1,5 +1,8 @@
 #include "model/recognisers/train_recogniser.hpp"
 
+#include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 
 #include "base/error.hpp"
@@ -12,6 +15,9 @@
 
 namespace actformer::model {
 namespace {
+
+using SaveWeights = std::function<void(const std::filesystem::path&, const std::vector<Array>&,
+                                       const std::map<std::string, std::string>&)>;
 
 /// A class that is never seen in training is never recognised: worth a line before hours of it.
 std::string missing_classes(const kernels::ClipStore& clips, const std::vector<std::string>& classes,
@@ -30,15 +36,43 @@ std::string missing_classes(const kernels::ClipStore& clips, const std::vector<s
                        split, all, counts.size(), fmt::join(missing, ", "), more);
 }
 
+/// A network to train, and how its weights are saved.
+struct Trainee {
+    std::unique_ptr<RecogniserNetwork> network;
+    SaveWeights save;
+};
+
+Trainee trainee_for(const RecogniserSettings& settings, const ingest::Dataset& dataset,
+                    const at::Device& device) {
+    const auto& header = dataset.header();
+    const auto joints = settings.joints_seen();
+    const auto network_of = [&](const auto& make) {
+        return make(settings, ingest::representation_of(dataset, joints),
+                    ingest::topology_of(dataset, joints), header.persons, header.classes.size(),
+                    dataset.folder().string());
+    };
+    if (settings.kind == RecogniserKind::gru) {
+        const auto network = network_of(gru_for);
+        return {
+            gru_network(settings, network, device),
+            [network, classes = header.classes](const auto& path, const auto& weights, const auto& notes) {
+                save_gru_weights(path, network, weights, notes, classes);
+            }};
+    }
+    const auto network = network_of(network_for);
+    return {stgcn_network(settings, network, device),
+            [network, classes = header.classes](const auto& path, const auto& weights, const auto& notes) {
+                save_weights(path, network, weights, notes, classes);
+            }};
+}
+
 RecogniserResult train_here(const Config& config, const std::filesystem::path& run,
                             const TrainingEvents& events) {
     const auto settings = recogniser_settings(config);
     const auto dataset = dataset_to_train_on(settings.data);
     const auto& header = dataset.header();
     const auto joints = settings.joints_seen();
-    const auto network = network_for(settings, ingest::representation_of(dataset, joints),
-                                     ingest::topology_of(dataset, joints), header.persons,
-                                     header.classes.size(), dataset.folder().string());
+    auto trainee = trainee_for(settings, dataset, torch_device(settings.device));
     kernels::Device opencl(settings.opencl);
     const auto clips = ingest::load_view(opencl, dataset, settings.train_split, joints).store;
     std::optional<kernels::ClipStore> test_clips;
@@ -46,19 +80,19 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
         test_clips = ingest::load_view(opencl, dataset, settings.test_split, joints).store;
     const Processes alone;
     const LearnerSetup setup{clips, torch_device(settings.device), alone};
-    RecogniserLearner learner(settings, network, setup);
+    RecogniserLearner learner(settings, std::move(trainee.network), header.classes.size(), setup);
     std::optional<TestSplitScorer> scorer;
     if (test_clips) scorer.emplace(settings.test_split, *test_clips);
-    const TrainingTask task{"recogniser", config, settings, dataset,
+    const TrainingTask task{config.model(), config, settings, dataset,
                             [&](const auto& path, const auto& weights, auto notes) {
                                 notes["configuration"] = config.yaml();
-                                save_weights(path, network, weights, notes, header.classes);
+                                trainee.save(path, weights, notes);
                             }};
     if (const auto line = missing_classes(clips, header.classes, settings.train_split);
         !line.empty() && events.note)
         events.note(line);
     RecogniserResult result{train(task, learner, setup, scorer ? &*scorer : nullptr, run, events),
-                            eval::Confusion(network.classes), header.classes};
+                            eval::Confusion(header.classes.size()), header.classes};
     if (scorer)  // an earlier call may have done all epochs
         result.confusion = scorer->confusion() ? *scorer->confusion() : learner.confusion_on(*test_clips);
     return result;

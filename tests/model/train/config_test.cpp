@@ -112,7 +112,8 @@ TEST(ShippedConfigs, AllLoad) {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(source("model/configs"))) {
         const bool recogniser = entry.path().filename().string().starts_with("recogniser");
-        auto config = recogniser ? recogniser_config() : read_generator_config(entry.path());
+        auto config = recogniser ? recogniser_config(recogniser_kind_in(entry.path()))
+                                 : read_generator_config(entry.path());
         config.load(entry.path());
         ++count;
     }

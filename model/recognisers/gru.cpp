@@ -1,0 +1,49 @@
+#include "model/recognisers/gru.hpp"
+
+#include <cmath>
+
+#include "base/files/file.hpp"
+#include "model/nn/weights_file.hpp"
+
+namespace actformer::model {
+
+std::vector<NetworkWeight> gru_weights(const GruSettings& settings) {
+    std::vector<NetworkWeight> all;
+    for (const auto& tensor : eval::gru_tensors(settings.network()))
+        all.push_back({tensor.name,
+                       {tensor.shape.begin(), tensor.shape.end()},
+                       Begin::uniform,
+                       1 / std::sqrt(static_cast<double>(tensor.fan_in))});
+    return all;
+}
+
+std::vector<SummaryLine> gru_summary(const GruSettings& settings, std::uint32_t frames) {
+    const auto network = settings.network();
+    const auto under = [&](const std::string& start, const std::string& end) {
+        std::int64_t sum = 0;
+        for (const auto& weight : gru_weights(settings))
+            if (weight.name.starts_with(start) && weight.name.ends_with(end)) sum += weight.count();
+        return sum;
+    };
+    const std::int64_t t = frames;
+    return {{"recurrent.0", "GRU", {t, network.hidden}, under("recurrent.", "_l0")},
+            {"recurrent.1", "GRU", {t, network.hidden}, under("recurrent.", "_l1")},
+            {"linear1", "of the last frame, tanh: the features", {network.features}, under("linear1.", "")},
+            {"linear2", "logits", {network.classes}, under("linear2.", "")}};
+}
+
+void save_gru_weights(const std::filesystem::path& path, const GruSettings& settings,
+                      const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes,
+                      const std::vector<std::string>& class_names) {
+    auto file = weights_writer(arrays);
+    file.attribute("kind", std::string("gru"));
+    file.attribute("representation", settings.representation.name());
+    if (!class_names.empty()) file.attribute("class_names", class_names);
+    file.attribute("channels", std::int64_t{settings.channels});
+    file.attribute("classes", std::int64_t{settings.classes});
+    file.attribute("parents", std::vector<std::int64_t>(settings.parents.begin(), settings.parents.end()));
+    for (const auto& [name, text] : notes) file.attribute(name, text);
+    file.image([&](std::string_view image) { write_whole(path, image); });
+}
+
+}  // namespace actformer::model
