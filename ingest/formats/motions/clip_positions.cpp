@@ -22,7 +22,8 @@ class Reading {
           first_(std::min(request.start, array.frames())),
           frames_(std::min(request.end.value_or(array.frames()), array.frames()) - first_),
           raw_(joints_ * 3),
-          pose_(joints_ * 3) {}
+          pose_(joints_ * 3),
+          body_(joints_ * 3) {}
 
     std::variant<ClipPositions, Rejection> read() {
         if (frames_ == 0)
@@ -169,27 +170,28 @@ class Reading {
 
     void begin() {
         out_ = {};
-        out_.values.resize(frames_ * request_.persons * joints_ * 3);
+        out_.values.reserve(frames_ * request_.persons * joints_ * 3);  // zeros there would cost as much as reading
         lengths_.assign(request_.persons * joints_, 0);
-        to_ = out_.values.data();
     }
 
     /// The next body, of person `p` of those kept.
     bool add(const double* pose, std::size_t p) {
-        if (to_ == out_.values.data()) std::copy(pose, pose + 3, origin_.begin());
+        if (out_.values.empty()) std::copy(pose, pose + 3, origin_.begin());
         const auto& parents = request_.topology->parents;
         double* length = &lengths_[p * joints_];
-        for (std::size_t j = 0; j < joints_; ++j, to_ += 3) {
+        float* to = body_.data();
+        for (std::size_t j = 0; j < joints_; ++j, to += 3) {
             const double* joint = pose + 3 * j;
             const double* parent = parents[j] < 0 ? origin_.data() : pose + 3 * parents[j];
             if (request_.limbs) {
-                for (std::size_t d = 0; d < 3; ++d) to_[d] = static_cast<float>(joint[d] - parent[d]);
+                for (std::size_t d = 0; d < 3; ++d) to[d] = static_cast<float>(joint[d] - parent[d]);
                 continue;
             }
-            for (std::size_t d = 0; d < 3; ++d) to_[d] = static_cast<float>(joint[d] - origin_[d]);
+            for (std::size_t d = 0; d < 3; ++d) to[d] = static_cast<float>(joint[d] - origin_[d]);
             if (parents[j] >= 0)
                 length[j] += std::hypot(joint[0] - parent[0], joint[1] - parent[1], joint[2] - parent[2]);
         }
+        out_.values.insert(out_.values.end(), body_.begin(), body_.end());
         return true;
     }
 
@@ -207,7 +209,7 @@ class Reading {
     std::vector<double> raw_, pose_;
     std::array<double, 3> origin_{};
     std::vector<double> lengths_;
-    float* to_ = nullptr;
+    std::vector<float> body_;  ///< (joints, 3)
     ClipPositions out_;
 };
 
