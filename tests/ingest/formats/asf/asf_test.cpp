@@ -8,14 +8,18 @@
 #include <map>
 #include <sstream>
 
+#include "base/numpy/npz.hpp"
 #include "ingest/formats/asf/amc_file.hpp"
 #include "ingest/formats/skeletal/pose.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/replaced.hpp"
 #include "tests/support/temp_dir.hpp"
 
 namespace actformer::ingest {
 namespace {
+
+using test::replaced;
 
 /// The text with the zero bytes that readers may load, and not one more.
 class Padded {
@@ -51,12 +55,6 @@ Recording recording_of(const std::string& text, const AsfSkeleton& skeleton) {
     auto result = parse_amc(Padded(text).view(), skeleton);
     EXPECT_EQ(reason_of(result), "taken");
     return std::holds_alternative<Recording>(result) ? std::get<Recording>(std::move(result)) : Recording();
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& with) {
-    const auto at = text.find(what);
-    EXPECT_NE(at, std::string::npos) << what;
-    return text.replace(at, what.size(), with);
 }
 
 /// A back that goes up 2, a hip bone that cannot turn, and a thigh whose own axes are turned by a right angle about z: what it calls
@@ -326,6 +324,53 @@ TEST(AmcFile, RealFilesComeOutAsPlainDoublePrecisionHasThem) {
     }
     EXPECT_EQ(frame, recording.frames);
     EXPECT_LT(worst, 2e-5);  // of bodies 30 units tall, turned by float32 degrees
+}
+
+// The layouts share the path of the root: AMASS's z is up, in metres, rounded to 1e-5; an Acclaim unit is 1/0.45 inch. No trial at hand
+// is both AMC and BVH.
+TEST(AmcFile, RootsAreThoseOfTheSameTrialInAmassLayout) {
+    const std::filesystem::path acclaim = test::shared("data/cmu_bvh/cmu_bvh.tar.xz"),
+                                amass = test::shared("data/cmu_amass/CMU.tar.xz");
+    if (!std::filesystem::exists(acclaim) || !std::filesystem::exists(amass))
+        GTEST_SKIP() << acclaim << " or " << amass << " is not at hand";
+    const test::TempDir dir;
+    for (const auto& archive : {acclaim, amass})
+        ASSERT_EQ(test::run_command("tar -xJf " + archive.string() + " -C " + dir.path().string() +
+                                    " --wildcards '*35.asf' '*49.asf' '*35_01*' '*49_18*' '*49_20*' 2>" +
+                                    (dir / "not_there").string() + "; true")
+                      .exit,
+                  0);
+    constexpr double unit = 0.0254 / 0.45;
+    for (const std::string trial : {"35_01", "49_18", "49_20"}) {
+        const auto subject = trial.substr(0, 2);
+        const auto recording =
+            recording_of(test::read_file(dir / ("asfamc/" + trial + ".amc")),
+                         skeleton_of(test::read_file(dir / ("asfamc/" + subject + ".asf"))));
+        std::vector<double> path;
+        double rate = 0;
+        const auto npz = test::read_file(dir / ("CMU/" + subject + "/" + trial + "_poses.npz"));
+        read_npz(
+            npz,
+            {.wanted = [](const std::string& name) { return name == "trans" || name == "mocap_framerate"; }},
+            [&](const std::string& name, const NumpyArray& array) {
+                const auto values = array.all_numbers();
+                if (name == "trans")
+                    path = values;
+                else
+                    rate = values.at(0);
+            });
+        const auto every = static_cast<std::uint32_t>(std::lround(120 / rate));
+        ASSERT_EQ(path.size() / 3, (recording.frames + every - 1) / every) << trial;
+        double worst = 0;
+        for (std::uint32_t t = 0; t < path.size() / 3; ++t) {
+            auto root = places_of(recording, t * every)[0];
+            for (std::size_t d = 0; d < 3; ++d) root[d] = unit * (root[d] + recording.origin[d]);
+            const std::array<double, 3> upright{root[0], -root[2], root[1]};
+            for (std::size_t d = 0; d < 3; ++d)
+                worst = std::max(worst, std::abs(upright[d] - path[3 * t + d]));
+        }
+        EXPECT_LT(worst, 6e-6) << trial;
+    }
 }
 
 }  // namespace
