@@ -16,10 +16,16 @@ using Place = YamlPlace;
 /// An entry's keys with those of what it is like, each with the node that says it.
 using Entry = std::map<std::string, Node>;
 
+/// A setting of `above` without a value takes the one below away.
 Node joined_settings(const Node& below, const Node& above) {
     Node out(YAML::NodeType::Map);
     for (const auto& item : below) out[item.first.Scalar()] = item.second;
-    for (const auto& item : above) out[item.first.Scalar()] = item.second;
+    for (const auto& item : above) {
+        if (item.second.IsNull())
+            out.remove(item.first.Scalar());
+        else
+            out[item.first.Scalar()] = item.second;
+    }
     return out;
 }
 

@@ -60,7 +60,7 @@ struct Sweep {
 ///     gaussian: {like: full, set: {prior: gaussian}, fills: [table3/Gaussian prior/NTU-1P]}
 ///
 /// An entry takes what it does not say from the one it is `like` (of its own section), a row without `like` from `base`; `set` is
-/// taken key by key, `fills` not at all. Throws Error naming file and line: unknown keys, values of another kind, a circle of
+/// taken key by key (`width: ~` takes a width away, as a row of another method must), `fills` not at all. Throws Error naming file and line: unknown keys, values of another kind, a circle of
 /// `like`, names that nothing has, unknown cells, a cell filled twice.
 Sweep read_sweep(const std::filesystem::path& file);
 
