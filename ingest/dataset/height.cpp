@@ -20,14 +20,14 @@ float quantile(std::vector<float> values, double share) {
     return *at;
 }
 
-using Places = std::vector<std::array<double, 3>>;  ///< (joints)
+using JointPlaces = std::vector<std::array<double, 3>>;  ///< (joints)
 
 /// The first person's joints in some frames.
-std::vector<Places> some_frames(const Motion& motion, const BodyModel& body) {
+std::vector<JointPlaces> some_frames(const Motion& motion, const BodyModel& body) {
     const auto positions = joint_positions(motion, body);
     const std::size_t joints = body.topology.joints(),
                       step = std::max<std::size_t>(1, motion.frames / frames_a_clip);
-    std::vector<Places> out;
+    std::vector<JointPlaces> out;
     for (std::size_t f = 0; f < motion.frames; f += step) {
         auto& places = out.emplace_back(joints);
         for (std::size_t j = 0; j < joints; ++j)
@@ -37,7 +37,7 @@ std::vector<Places> some_frames(const Motion& motion, const BodyModel& body) {
     return out;
 }
 
-float extent(const Places& places, std::size_t axis) {
+float extent(const JointPlaces& places, std::size_t axis) {
     const auto [least, most] = std::minmax_element(
         places.begin(), places.end(), [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
     return static_cast<float>((*most)[axis] - (*least)[axis]);
@@ -49,11 +49,11 @@ struct Look {
     std::array<double, 3> upright{};            ///< sum over the frames
     std::size_t frames = 0;
 
-    void add(const std::vector<Places>& clip, const BodyParts& parts);
+    void add(const std::vector<JointPlaces>& clip, const BodyParts& parts);
     std::optional<std::size_t> axis_of_the_trunk() const;
 };
 
-void Look::add(const std::vector<Places>& clip, const BodyParts& parts) {
+void Look::add(const std::vector<JointPlaces>& clip, const BodyParts& parts) {
     for (std::size_t d = 0; d < 3; ++d) {
         std::vector<float> of_frames;
         for (const auto& places : clip) of_frames.push_back(extent(places, d));

@@ -192,7 +192,7 @@ class Archive {
     std::string member_;
 };
 
-struct Item {
+struct Found {
     std::string path;
     std::size_t given = 0;  ///< which of the RAW paths it lies below, or is
     bool archive = false;
@@ -201,7 +201,7 @@ struct Item {
 };
 
 void add_files_below(const fs::path& folder, std::size_t given, const Extensions& extensions,
-                     std::vector<Item>& items) {
+                     std::vector<Found>& items) {
     const auto before = static_cast<std::ptrdiff_t>(items.size());
     std::error_code error;
     for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
@@ -211,11 +211,11 @@ void add_files_below(const fs::path& folder, std::size_t given, const Extensions
     }
     if (error) throw Error("{}: the folder cannot be read: {}", folder.string(), error.message());
     std::sort(items.begin() + before, items.end(),
-              [](const Item& a, const Item& b) { return a.path < b.path; });
+              [](const Found& a, const Found& b) { return a.path < b.path; });
 }
 
 /// Sizes and times of change; 0 for a file that vanished, which is rejected when it is read.
-void look_at(std::vector<Item>& items) {
+void look_at(std::vector<Found>& items) {
     parallel_for(items.size(), thread_count(0), [&](std::size_t i, unsigned) {
         struct stat status {};
         if (::stat(items[i].path.c_str(), &status) != 0) return;
@@ -248,14 +248,14 @@ struct Source::State {
     Extensions extensions;
     std::uint64_t largest = usual_largest_file;
     std::vector<fs::path> given;
-    std::vector<Item> items;
+    std::vector<Found> items;
     std::size_t at = 0;
     std::uint64_t files = 0, passed = 0;
     std::unique_ptr<Archive> archive;
     std::function<bool(const RawFile&)> unpacks;  ///< empty: all
 
     /// The path of a file below the folder it was found in; of a file given by itself, as it was given.
-    std::string inside(const Item& item) const {
+    std::string inside(const Found& item) const {
         const auto& folder = given[item.given].native();
         if (folder.size() >= item.path.size()) return item.path;
         return item.path.substr(item.path.find_first_not_of('/', folder.size()));

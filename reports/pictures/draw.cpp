@@ -15,7 +15,7 @@ namespace {
 // Shares of a body's reach (root to furthest tip, some 1.3 m in an adult).
 constexpr double thin = 0.013, thick = 0.036, head_size = 0.082;
 
-cv::Vec3d point(const JointMotion& motion, std::size_t frame, std::size_t person, std::size_t joint) {
+cv::Vec3d place_of(const JointMotion& motion, std::size_t frame, std::size_t person, std::size_t joint) {
     const float* x = motion.at(frame, person, joint);
     return {x[0], x[1], x[2]};
 }
@@ -135,7 +135,7 @@ std::vector<Cone> Stage::limbs(const Camera& camera, std::size_t frame) const {
     for (std::size_t p = 0; p < motion_.persons; ++p) {
         if (!motion_.visible(frame, p)) continue;
         const auto radius = [&](std::size_t j) { return std::max(0.8, radius_[p * k + j] * camera.scale()); };
-        const auto at = [&](std::size_t j) { return camera.project(point(motion_, frame, p, j)); };
+        const auto at = [&](std::size_t j) { return camera.project(place_of(motion_, frame, p, j)); };
         const auto colour = [&](std::size_t j) { return this->colour(p, sides_[j]); };
         for (std::size_t j = 1; j < k; ++j) {
             const auto parent = static_cast<std::size_t>(motion_.topology.parents[j]);
@@ -146,9 +146,9 @@ std::vector<Cone> Stage::limbs(const Camera& camera, std::size_t frame) const {
         }
         if (k == 1) cones.push_back({at(0), at(0), radius(0), radius(0), colour(0)});
         if (head_ >= 0) {
-            auto centre = point(motion_, frame, p, static_cast<std::size_t>(head_));
+            auto centre = place_of(motion_, frame, p, static_cast<std::size_t>(head_));
             if (crown_ >= 0)
-                centre = 0.5 * (centre + point(motion_, frame, p, static_cast<std::size_t>(crown_)));
+                centre = 0.5 * (centre + place_of(motion_, frame, p, static_cast<std::size_t>(crown_)));
             const auto seen = camera.project(centre);
             const double r = std::max(1.6, head_size * framing_.reach() * camera.scale());
             cones.push_back({seen, seen, r, r, colour(static_cast<std::size_t>(head_))});
@@ -252,7 +252,7 @@ void Stage::draw_shadow(cv::Mat& cell, const Camera& eye, std::size_t frame) con
     for (std::size_t p = 0; p < motion_.persons; ++p)
         for (std::size_t j = 0; motion_.visible(frame, p) && j < k; ++j) {
             const auto parent = static_cast<std::size_t>(std::max(0, motion_.topology.parents[j]));
-            const auto a = point(motion_, frame, p, parent), b = point(motion_, frame, p, j);
+            const auto a = place_of(motion_, frame, p, parent), b = place_of(motion_, frame, p, j);
             const double height = std::max(0.0, 0.5 * (a[1] + b[1]) - framing_.floor());
             const Print print{plan(a), plan(b), 1.3 * radius_[p * k + j] * per_metre,
                               std::exp(-height / (0.45 * reach))};

@@ -1,6 +1,10 @@
 // Skeletons that move, made up, and the way back to joint positions by plain matrices.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
 #include <array>
 #include <cmath>
 #include <random>
@@ -98,6 +102,15 @@ inline ingest::SkeletonMotion made_motion(const ingest::Topology& tree, std::uin
             motion.position.push_back(j == 0 ? made_point(random, 2) : motion.rest[j]);
         }
     return motion;
+}
+
+/// The largest distance between joints of the same place.
+inline double furthest(const std::vector<Point>& a, const std::vector<Point>& b) {
+    EXPECT_EQ(a.size(), b.size());
+    double most = 0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        most = std::max(most, distance(a[i], b[i]));
+    return most;
 }
 
 }  // namespace actformer::test

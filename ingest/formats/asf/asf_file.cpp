@@ -13,7 +13,7 @@ namespace {
 using kernels::Channel;
 
 constexpr std::size_t most_bones = 1024;
-constexpr double largest = 1e6;  // of lengths, so that their sums stay finite in float32
+constexpr double largest_length = 1e6;  // of lengths, so that their sums stay finite in float32
 
 /// "RX", "TY" and the like.
 std::optional<Channel> channel_named(std::string_view word) {
@@ -106,7 +106,7 @@ class AsfReader {
         Entry& bone = bones_.back();
         if (is(word, "NAME")) return read_name(bone);
         if (is(word, "DIRECTION")) bone.direction = read_vector();
-        if (is(word, "LENGTH")) bone.length = text_.number("a length", largest);
+        if (is(word, "LENGTH")) bone.length = text_.number("a length", largest_length);
         if (is(word, "AXIS")) {
             bone.angles = read_vector();
             if (text_.more_on_line()) bone.order = read_order();
@@ -170,7 +170,7 @@ class AsfReader {
 
     Vector3 read_vector() {
         Vector3 v{};
-        for (auto& value : v) value = text_.number("a number", largest);
+        for (auto& value : v) value = text_.number("a number", largest_length);
         return v;
     }
 

@@ -9,7 +9,7 @@
 namespace actformer::ingest {
 namespace {
 
-constexpr double smallest = 0.8, largest = 2.5;  // metres, of a body
+constexpr double smallest_body = 0.8, largest_body = 2.5;  // metres, of a body
 constexpr double other_unit = 2.2;  // times as large or as small: centimetres and inches are 2.54 apart
 
 double median(std::vector<double> values) {
@@ -85,7 +85,7 @@ std::string Doubts::height_remark(double scale, bool found) const {
     if (!(height_ > 0)) return {};
     const double metres = scale * height_;
     if (found) return fmt::format("scale {:.4g}: a body is about {} tall", scale, length(metres));
-    if (metres >= smallest && metres <= largest) return {};
+    if (metres >= smallest_body && metres <= largest_body) return {};
     const double fitting = fitting_scale(height_);
     return fmt::format(
         "a body is about {} tall at {:.4g} metres a unit; --scale {:.4g} would make it {}, and --scale auto "

@@ -5,7 +5,7 @@
 namespace actformer::ingest {
 namespace {
 
-constexpr std::uint32_t classes = 12;
+constexpr std::uint32_t class_count = 12;
 
 /// The number behind `letter` at the front of `text`, which it is taken from; none where there is none.
 std::optional<std::uint32_t> take_number(std::string_view& text, char letter) {
@@ -35,7 +35,7 @@ std::optional<ArrayName> parse_array_name(std::string_view stem) {
     const auto both = take_number(stem, 'A');
     if (!both || !four_digits || !stem.empty()) return {};
     const auto coarse = *both / 100;
-    if (coarse < 1 || coarse > classes) return {};
+    if (coarse < 1 || coarse > class_count) return {};
     name.label = coarse - 1;
     name.fields.push_back(std::to_string(coarse));
     name.fields.push_back(std::to_string(*both));

@@ -9,9 +9,9 @@ namespace {
 
 constexpr kernels::Smoothing smoothing{3, 12};  // as NTU's
 
-using Clips = std::span<const PositionClip* const>;
+using PositionClips = std::span<const PositionClip* const>;
 
-kernels::ClipBatch batch_of(Clips clips, const DatasetHeader& header) {
+kernels::ClipBatch batch_of(PositionClips clips, const DatasetHeader& header) {
     kernels::ClipBatch batch;
     batch.persons = header.persons;
     batch.joints = static_cast<std::uint32_t>(header.topology.joints());
@@ -28,7 +28,8 @@ kernels::ClipBatch batch_of(Clips clips, const DatasetHeader& header) {
 }
 
 /// The clips' values on the device, a person after the other, as the kernels want detections.
-kernels::Buffer<float> by_person(kernels::Device& device, Clips clips, const kernels::ClipBatch& batch) {
+kernels::Buffer<float> by_person(kernels::Device& device, PositionClips clips,
+                                 const kernels::ClipBatch& batch) {
     auto values = kernels::limb_buffer(device, batch.times.size(), batch.joints);
     values.write_with([&](std::span<float> to) {
         const std::size_t body = std::size_t{batch.joints} * 3;
@@ -41,7 +42,7 @@ kernels::Buffer<float> by_person(kernels::Device& device, Clips clips, const ker
     return values;
 }
 
-kernels::CleanedBatch limbs_of(kernels::Device& device, Clips clips, const DatasetHeader& header,
+kernels::CleanedBatch limbs_of(kernels::Device& device, PositionClips clips, const DatasetHeader& header,
                                bool smooth) {
     const auto batch = batch_of(clips, header);
     if (smooth) return kernels::clean(device, batch, by_person(device, clips, batch), smoothing);
@@ -64,7 +65,7 @@ void centre(std::span<float> values, const DatasetHeader& header) {
 }
 
 /// Positions, smoothed or not, about the clip's mean root.
-kernels::CleanedBatch positions_of(kernels::Device& device, Clips clips, const DatasetHeader& header,
+kernels::CleanedBatch positions_of(kernels::Device& device, PositionClips clips, const DatasetHeader& header,
                                    bool smooth) {
     kernels::CleanedBatch out;
     const auto motion = std::make_shared<std::vector<float>>();

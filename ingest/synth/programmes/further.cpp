@@ -350,7 +350,7 @@ std::vector<Programme> care_and_bags() {
             .fists(0.8, 0.8)};
 }
 
-std::vector<Programme> exercise() {
+std::vector<Programme> fitness() {
     return {Programme(93, 2.6)  // shake fist: raised at the side of the head, angrily to and fro
                 .right({{0.22, reach, 0.18, 0.28, 0.46}, {0.86, reach, 0.18, 0.28, 0.46}, {1, rest}})
                 .wave(rz, 0.10, 2.7, 0.22, 0.86)
@@ -491,7 +491,7 @@ std::vector<Programme> exercise() {
 
 std::vector<Programme> further_programmes() {
     std::vector<Programme> all;
-    for (const auto& table : {head_and_sports(), handiwork(), care_and_bags(), exercise()})
+    for (const auto& table : {head_and_sports(), handiwork(), care_and_bags(), fitness()})
         all.insert(all.end(), table.begin(), table.end());
     return all;
 }

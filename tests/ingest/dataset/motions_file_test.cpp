@@ -9,6 +9,7 @@
 #include "base/hdf5/writer.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/described_motions.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/made_dataset.hpp"
 
 using namespace actformer;
@@ -28,15 +29,6 @@ std::filesystem::path file_with(const TempDir& dir, std::uint64_t channels,
     if (add) add(file);
     EXPECT_TRUE(file.finish());
     return path;
-}
-
-std::string error_of(const std::function<void()>& what) {
-    try {
-        what();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "";
 }
 
 }  // namespace

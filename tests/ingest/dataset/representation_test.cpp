@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "ingest/dataset/body_model.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/made_dataset.hpp"
 
 using namespace actformer;
@@ -14,15 +15,6 @@ using namespace actformer::ingest;
 using namespace actformer::test;
 
 namespace {
-
-std::string error_of(const std::function<void()>& what) {
-    try {
-        what();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "";
-}
 
 BodyModel arms(Representation how) {
     BodyModel body{how, ArmsClip::topology(), ArmsClip(0, 0, 1).bone_length(), {}};

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "ingest/export/export.hpp"
 #include "ingest/export/gltf/body_figure.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/glb.hpp"
 #include "tests/support/made_body.hpp"
 #include "tests/support/temp_dir.hpp"
@@ -16,17 +17,17 @@ namespace actformer::ingest {
 namespace {
 
 using namespace actformer::test;
-using Matrix = std::array<double, 16>;  // column by column, as in glTF
+using Transform = std::array<double, 16>;  // column by column, as in glTF
 
-Matrix product(const Matrix& a, const Matrix& b) {
-    Matrix out{};
+Transform chained(const Transform& a, const Transform& b) {
+    Transform out{};
     for (std::size_t j = 0; j < 4; ++j)
         for (std::size_t i = 0; i < 4; ++i)
             for (std::size_t k = 0; k < 4; ++k) out[4 * j + i] += a[4 * k + i] * b[4 * j + k];
     return out;
 }
 
-Matrix local(const std::array<double, 4>& q, const std::array<double, 3>& t) {
+Transform local(const std::array<double, 4>& q, const std::array<double, 3>& t) {
     const auto [x, y, z, w] = q;
     return {1 - 2 * (y * y + z * z),
             2 * (x * y + z * w),
@@ -47,7 +48,7 @@ Matrix local(const std::array<double, 4>& q, const std::array<double, 3>& t) {
 }
 
 /// World transforms of all nodes at a keyed frame.
-std::vector<Matrix> world(const Glb& glb, std::size_t frame) {
+std::vector<Transform> world(const Glb& glb, std::size_t frame) {
     const auto& nodes = glb.json["nodes"];
     std::vector<std::array<double, 4>> turns(nodes.size(), {0, 0, 0, 1});
     std::vector<std::array<double, 3>> places(nodes.size(), {0, 0, 0});
@@ -64,11 +65,11 @@ std::vector<Matrix> world(const Glb& glb, std::size_t frame) {
         else
             std::copy_n(&values[3 * frame], 3, places[node].begin());
     }
-    std::vector<Matrix> out(nodes.size());
+    std::vector<Transform> out(nodes.size());
     for (std::size_t n = 0; n < nodes.size(); ++n) out[n] = local(turns[n], places[n]);
     for (std::size_t n = 0; n < nodes.size(); ++n)  // parents come first
         if (nodes[n].contains("children"))
-            for (const std::size_t child : nodes[n]["children"]) out[child] = product(out[n], out[child]);
+            for (const std::size_t child : nodes[n]["children"]) out[child] = chained(out[n], out[child]);
     return out;
 }
 
@@ -81,11 +82,11 @@ std::vector<double> skinned(const Glb& glb, std::size_t person, std::size_t fram
                binds = glb.floats(skin["inverseBindMatrices"]);
     const auto joints = glb.numbers<std::uint16_t>(attributes["JOINTS_0"], 5123);
     const auto all = world(glb, frame);
-    std::vector<Matrix> transforms;
+    std::vector<Transform> transforms;
     for (std::size_t k = 0; k < 24; ++k) {
-        Matrix bind;
+        Transform bind;
         std::copy_n(&binds[16 * k], 16, bind.begin());
-        transforms.push_back(product(all[skin["joints"][k].get<std::size_t>()], bind));
+        transforms.push_back(chained(all[skin["joints"][k].get<std::size_t>()], bind));
     }
     std::vector<double> out(at.size(), 0);
     for (std::size_t v = 0; v < at.size() / 3; ++v) {
@@ -108,15 +109,6 @@ std::filesystem::path write_stiff_body(const TempDir& folder) {
     for (auto& v : body["posedirs"].values) v = 0;
     write_body(folder / "body.npz", body);
     return folder / "body.npz";
-}
-
-std::string refusal(const ExportRequest& request) {
-    try {
-        export_clips(request);
-        return "taken";
-    } catch (const Error& e) {
-        return e.what();
-    }
 }
 
 }  // namespace
@@ -204,10 +196,12 @@ TEST(ExportWithBody, IsForRotationsAndGlbAlone) {
     write_turning_motion(folder / "walk.h5");
     const auto body = write_stiff_body(folder);
     ExportRequest request{folder / "walk.h5", folder / "walk.bvh", {}, {}, body, {}};
-    EXPECT_NE(refusal(request).find("a .bvh holds no skin"), std::string::npos) << refusal(request);
+    EXPECT_NE(error_of([&] { export_clips(request); }).find("a .bvh holds no skin"), std::string::npos)
+        << error_of([&] { export_clips(request); });
     request.out = folder / "walk.glb";
     request.body = folder / "none.npz";
-    EXPECT_NE(refusal(request).find("none.npz"), std::string::npos) << refusal(request);
+    EXPECT_NE(error_of([&] { export_clips(request); }).find("none.npz"), std::string::npos)
+        << error_of([&] { export_clips(request); });
     EXPECT_FALSE(std::filesystem::exists(request.out));
 
     Motion limbs{"A001_0", 3, 1, 24, 3, std::vector<float>(3 * 24 * 3, 0.0F)};
@@ -220,8 +214,9 @@ TEST(ExportWithBody, IsForRotationsAndGlbAlone) {
     file.add("A001_0", limbs);
     file.finish();
     request = {folder / "limbs.h5", folder / "limbs.glb", {}, {}, body, {}};
-    EXPECT_NE(refusal(request).find("limbs.h5: motions are limb of 24 joints"), std::string::npos)
-        << refusal(request);
+    EXPECT_NE(error_of([&] { export_clips(request); }).find("limbs.h5: motions are limb of 24 joints"),
+              std::string::npos)
+        << error_of([&] { export_clips(request); });
 }
 
 }  // namespace actformer::ingest

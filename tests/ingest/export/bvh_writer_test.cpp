@@ -14,7 +14,7 @@ namespace {
 
 using namespace actformer::test;
 
-Recording parsed(const std::string& text) {
+Recording read_back(const std::string& text) {
     const std::string padded = text + std::string(64, '\0');
     auto result = parse_bvh(std::string_view(padded).substr(0, text.size()));
     if (const auto* why = std::get_if<Rejection>(&result)) {
@@ -26,7 +26,7 @@ Recording parsed(const std::string& text) {
 
 constexpr double radians = 3.14159265358979323846 / 180;
 
-Matrix about(int axis, double degrees) {
+Matrix turn_about(int axis, double degrees) {
     const double c = std::cos(degrees * radians), s = std::sin(degrees * radians);
     if (axis == 0) return {{{1, 0, 0}, {0, c, -s}, {0, s, c}}};
     if (axis == 1) return {{{c, 0, s}, {0, 1, 0}, {-s, 0, c}}};
@@ -49,7 +49,7 @@ std::vector<Point> places(const Recording& file, const Topology& tree) {
                 if (kind < 3)
                     step[kind] = value;
                 else
-                    own = product(own, about(kind - 3, value));
+                    own = product(own, turn_about(kind - 3, value));
             }
             const Matrix above = joint.parent < 0 ? matrix({}) : turned[joint.parent];
             at[j] = product(above, step);
@@ -78,7 +78,7 @@ TEST(BvhWriter, RotationsAndSlidesComeBack) {
     for (int round = 0; round < 20; ++round) {
         const auto tree = made_tree(1 + random() % 20, random);
         const auto motion = made_motion(tree, 5, random);
-        const auto file = parsed(bvh_text(motion, 30));
+        const auto file = read_back(bvh_text(motion, 30));
         ASSERT_EQ(file.frames, 5U);
         EXPECT_EQ(file.fps(), 30);
         // The reader's float32 holds angles to 8e-6 degrees; 20 joints of half a metre each make it 1e-6 m.
@@ -92,7 +92,7 @@ TEST(BvhWriter, JointsThatSlideHaveSixChannels) {
     auto motion = made_motion(tree, 4, random);
     motion.slides[2] = true;
     for (std::size_t t = 0; t < 4; ++t) motion.position[t * 3 + 2] = made_point(random, 1);
-    const auto file = parsed(bvh_text(motion, 120));
+    const auto file = read_back(bvh_text(motion, 120));
     ASSERT_EQ(file.joints.size(), 4U);
     EXPECT_EQ(file.joints[1].channels.size(), 3U);
     EXPECT_EQ(file.joints[2].channels.size(), 6U);

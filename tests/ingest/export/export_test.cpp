@@ -55,14 +55,6 @@ struct InEveryRepresentation : testing::TestWithParam<Representation::Kind> {
     }
 };
 
-double furthest(const std::vector<Point>& a, const std::vector<Point>& b) {
-    EXPECT_EQ(a.size(), b.size());
-    double most = 0;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        most = std::max(most, distance(a[i], b[i]));
-    return most;
-}
-
 // The numbers are float32, of less than 2 m: 1e-7 each, some of them along a chain.
 constexpr double float32 = 1e-6;
 

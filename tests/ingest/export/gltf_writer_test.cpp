@@ -55,7 +55,7 @@ std::vector<Point> places(const Glb& glb, std::size_t skin, std::uint32_t frames
 }
 
 // float32 rotations turn by 1e-7 or less each: 20 bones of half a metre make it 1e-6 m.
-constexpr double float32 = 2e-6;
+constexpr double float32_error = 2e-6;
 
 TEST(GltfWriter, SeveralPersonsComeBackFromOneScene) {
     std::mt19937 random(1);
@@ -71,7 +71,8 @@ TEST(GltfWriter, SeveralPersonsComeBackFromOneScene) {
     ASSERT_EQ(glb.json["skins"].size(), 3U);
     for (std::size_t p = 0; p < 3; ++p) {
         const auto want = joints_of(persons[p]), got = places(glb, p, 6, tree);
-        for (std::size_t i = 0; i < want.size(); ++i) EXPECT_LT(distance(got[i], want[i]), float32) << p;
+        for (std::size_t i = 0; i < want.size(); ++i)
+            EXPECT_LT(distance(got[i], want[i]), float32_error) << p;
     }
     const auto times = glb.floats(glb.json["animations"][0]["samplers"][0]["input"]);
     ASSERT_EQ(times.size(), 6U);
@@ -90,7 +91,7 @@ TEST(GltfWriter, TheBodyHangsOnItsJoints) {
     for (std::size_t j = 0; j < 5; ++j) still.position[j] = motion.rest[j];
     const auto rest = joints_of(still);
     for (std::size_t j = 0; j < 5; ++j) {
-        for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR(binds[j * 16 + 12 + d], -rest[j][d], float32);
+        for (std::size_t d = 0; d < 3; ++d) EXPECT_NEAR(binds[j * 16 + 12 + d], -rest[j][d], float32_error);
         EXPECT_EQ(binds[j * 16 + 15], 1);
     }
     const auto& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
@@ -99,7 +100,7 @@ TEST(GltfWriter, TheBodyHangsOnItsJoints) {
     std::size_t on_joints = 0;
     for (std::size_t v = 0; v < vertices.size(); v += 3)
         for (std::size_t j = 0; j < 5; ++j)
-            on_joints += distance({vertices[v], vertices[v + 1], vertices[v + 2]}, rest[j]) < float32;
+            on_joints += distance({vertices[v], vertices[v + 1], vertices[v + 2]}, rest[j]) < float32_error;
     EXPECT_EQ(on_joints, 4U * 8);  // a corner of every triangle is the bone's head or tip
     // From outside, corners run counter-clockwise: normals point away from the bone's middle.
     const auto normals = glb.floats(attributes["NORMAL"]);

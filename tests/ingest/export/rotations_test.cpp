@@ -21,12 +21,6 @@ double length(const Point& a) {
     return std::sqrt(dot(a, a));
 }
 
-double furthest(const std::vector<Point>& a, const std::vector<Point>& b) {
-    double most = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, distance(a[i], b[i]));
-    return most;
-}
-
 /// Joints that wander freely: neither lengths nor angles stay.
 std::vector<Point> loose_joints(std::size_t frames, std::size_t joints, std::mt19937& random) {
     std::vector<Point> out;

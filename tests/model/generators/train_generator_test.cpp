@@ -29,13 +29,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* tiny =
+constexpr const char* tiny_generator =
     "model: actformer\nframes: 16\nwidth: 16\nheads: 2\ndepth: 1\nlatent: 8\nd_width: 2\nbatch: 6\nepochs: "
     "4\n"
     "train_split: s/train\nseed: 4\nthreads: 1\ncheckpoint_minutes: 0\n";
 
 struct TrainGenerator : testing::Test {
-    void SetUp() override { write_file(dir / "toy.yaml", tiny); }
+    void SetUp() override { write_file(dir / "toy.yaml", tiny_generator); }
 
     std::string at(const std::string& name) const { return (dir / name).string(); }
     std::string line(const std::string& run, const std::string& more = "") const {
@@ -315,7 +315,7 @@ namespace {
 /// Trains in this process, and gives the last epoch.
 model::EpochReport trained(const fs::path& data, const fs::path& run, const std::vector<std::string>& keys) {
     auto config = model::generator_config(model::methods().front());
-    config.load_text(tiny, "tiny");
+    config.load_text(tiny_generator, "tiny");
     config.override_with("data=" + data.string());
     config.override_with("checkpoint_minutes=10");
     for (const auto& key : keys) config.override_with(key);

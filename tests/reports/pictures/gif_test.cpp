@@ -56,7 +56,7 @@ struct Played {
     }
 };
 
-Layout small() {
+Layout small_film() {
     Layout layout;
     layout.size = 90;
     layout.samples = 2;
@@ -66,7 +66,7 @@ Layout small() {
 TEST(Gif, MovesAndLoops) {
     const Folder folder;
     const std::vector<JointMotion> motions{walkers(1, 20), walkers(2, 20)};
-    render(motions, small(), folder / "walk.gif");
+    render(motions, small_film(), folder / "walk.gif");
     const Played played(folder / "walk.gif");
     ASSERT_EQ(played.frames.size(), 20U);
     EXPECT_TRUE(played.loops);
@@ -75,7 +75,7 @@ TEST(Gif, MovesAndLoops) {
     EXPECT_EQ(folder.files(), 1U);
 
     // What is shown is what was drawn, but for the palette.
-    const auto film = animation(motions, small());
+    const auto film = animation(motions, small_film());
     for (const std::size_t i : {0, 7, 19}) {
         const auto drawn = film.draw(i);
         ASSERT_EQ(drawn.size(), played.frames[i].size());
@@ -89,7 +89,7 @@ TEST(Gif, MovesAndLoops) {
 TEST(Gif, KeepsTime) {
     const Folder folder;
     for (const double fps : {10.0, 24.0, 30.0, 50.0, 120.0}) {
-        render({walkers(1, 24, fps)}, small(), folder / "walk.gif");
+        render({walkers(1, 24, fps)}, small_film(), folder / "walk.gif");
         const Played played(folder / "walk.gif");
         EXPECT_NEAR(played.length(), 2400 / fps, 2) << fps;
         for (const int c : played.centiseconds) EXPECT_GE(c, 2) << fps;

@@ -18,7 +18,7 @@ namespace {
 
 const cv::Vec3f paper(255, 255, 255), red(0, 0, 255), blue(255, 0, 0);
 
-cv::Mat blank(int width, int height) {
+cv::Mat empty_picture(int width, int height) {
     return {height, width, CV_8UC3, cv::Scalar(255, 255, 255)};
 }
 
@@ -38,7 +38,7 @@ std::filesystem::path body_file(const TempDir& folder) {
 }  // namespace
 
 TEST(Mesh, FillsItsTriangleAndNothingElse) {
-    auto picture = blank(40, 30);
+    auto picture = empty_picture(40, 30);
     // The lower left half of a square from (10, 5) to (30, 25).
     draw_mesh(picture, {corner(10, 5, 0, red), corner(10, 25, 0, red), corner(30, 25, 0, red)},
               std::vector<std::uint32_t>{0, 1, 2}, 3, paper);
@@ -59,7 +59,7 @@ TEST(Mesh, FillsItsTriangleAndNothingElse) {
 TEST(Mesh, NearerHidesFarther) {
     const std::vector<std::uint32_t> faces{0, 1, 2, 3, 4, 5};
     for (const double nearer : {-1.0, 1.0}) {
-        auto picture = blank(20, 20);
+        auto picture = empty_picture(20, 20);
         draw_mesh(picture,
                   {corner(0, 0, 0, red), corner(19, 0, 0, red), corner(0, 19, 0, red),
                    corner(0, 0, nearer, blue), corner(19, 0, nearer, blue), corner(0, 19, nearer, blue)},
@@ -72,7 +72,7 @@ TEST(Mesh, NearerHidesFarther) {
 // What turns away from the viewer is the back of what faces it; what turns aside is darker.
 TEST(Mesh, IsLitByItsNormals) {
     const auto drawn = [](const cv::Vec3f& normal) {
-        auto picture = blank(20, 20);
+        auto picture = empty_picture(20, 20);
         std::vector<MeshCorner> corners;
         for (const auto& [x, y] : {std::pair{0, 0}, {0, 19}, {19, 0}})
             corners.push_back({{static_cast<double>(x), static_cast<double>(y), 0}, normal, red});
@@ -94,7 +94,7 @@ TEST(BodyPictureOnDevice, TheWholeBodyIsInsideItsCellAndCoversItsJoints) {
     const Stage stage(motions[0], View{0, 0, false});  // level: no floor is drawn
     for (const std::size_t frame : {0U, 9U, 23U}) {
         const cv::Size size(200, 160);
-        auto cell = blank(size.width, size.height);
+        auto cell = empty_picture(size.width, size.height);
         stage.draw(cell, frame);
         for (int y = 0; y < size.height; ++y)
             for (const int x : {0, 1, size.width - 2, size.width - 1})

@@ -9,10 +9,13 @@
 
 #include "ingest/formats/bvh/bvh_format.hpp"
 #include "ingest/pipeline/source.hpp"
+#include "tests/support/collected.hpp"
 #include "tests/support/paths.hpp"
 
 namespace actformer::ingest {
 namespace {
+
+using test::Collected;
 
 using Matrix = std::array<std::array<double, 4>, 4>;
 
@@ -141,11 +144,6 @@ void survey(BvhFormat& format, const std::filesystem::path& archive) {
     for (RawFile file; source.next(file);) format.survey(file.raw(file.text(scratch)));
     format.settle();
 }
-
-struct Collected : ClipSink {
-    void take(ParsedClip clip) override { clips.push_back(std::move(clip)); }
-    std::vector<ParsedClip> clips;
-};
 
 TEST(BvhBnr, RealClipsComeOutAsPlainDoublePrecisionHasThem) {
     const std::filesystem::path archive = test::shared("data/bnr/dataset-1.tar.xz");

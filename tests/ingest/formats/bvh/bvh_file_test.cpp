@@ -1,5 +1,6 @@
 // The BVH reader on what is out there and on what is hostile.
 #include "ingest/formats/bvh/bvh_file.hpp"
+#include "tests/support/replaced.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +8,8 @@
 
 namespace actformer::ingest {
 namespace {
+
+using test::replaced;
 
 using kernels::Channel;
 
@@ -34,12 +37,6 @@ std::string reason(const std::string& text) {
     const auto result = parse(text);
     if (!std::holds_alternative<Rejection>(result)) return "taken";
     return std::get<Rejection>(result).reason;
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& with) {
-    const auto at = text.find(what);
-    EXPECT_NE(at, std::string::npos) << what;
-    return text.replace(at, what.size(), with);
 }
 
 const std::string hierarchy =

@@ -8,18 +8,18 @@
 
 #include "base/error.hpp"
 #include "ingest/formats/bvh/bvh_file.hpp"
+#include "tests/support/collected.hpp"
+#include "tests/support/replaced.hpp"
 #include "tests/support/temp_dir.hpp"
 
 namespace actformer::ingest {
 namespace {
 
-using Names = std::vector<std::string>;
+using test::Collected;
 
-std::string replaced(std::string text, const std::string& what, const std::string& with) {
-    const auto at = text.find(what);
-    EXPECT_NE(at, std::string::npos) << what;
-    return text.replace(at, what.size(), with);
-}
+using test::replaced;
+
+using Names = std::vector<std::string>;
 
 /// A floor joint that stands still, hips that travel along x, and a leg of two limbs with end sites.
 const std::string walk =
@@ -80,12 +80,6 @@ std::unique_ptr<BvhFormat> settled(const BvhOptions& o, const Files& files) {
 std::unique_ptr<BvhFormat> settled(const BvhOptions& o) {
     return settled(o, {{"walk_1.bvh", walk}, {"run_1.bvh", "HIERARCHY"}});
 }
-
-/// All that a file gives.
-struct Collected : ClipSink {
-    void take(ParsedClip clip) override { clips.push_back(std::move(clip)); }
-    std::vector<ParsedClip> clips;
-};
 
 std::vector<ParsedClip> read(const BvhFormat& format, const std::string& path, const std::string& text) {
     Collected out;

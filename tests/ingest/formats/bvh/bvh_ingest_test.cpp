@@ -12,7 +12,7 @@ namespace actformer::ingest {
 namespace {
 
 /// Someone 160 units tall who walks along x.
-std::string person(const std::string& frames = "0 0 0 0\n1 0 0 0\n2 0 0 0\n") {
+std::string one_person(const std::string& frames = "0 0 0 0\n1 0 0 0\n2 0 0 0\n") {
     return "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 4 Xposition Yposition Zposition Yrotation\n"
            "JOINT Spine\n{\nOFFSET 0 50 0\nJOINT Head\n{\nOFFSET 0 30 0\n}\n}\n"
            "JOINT Leg\n{\nOFFSET 10 -40 0\nJOINT Foot\n{\nOFFSET 0 -40 0\n}\n}\n}\n"
@@ -42,9 +42,9 @@ class BvhIngest : public ::testing::Test {
 };
 
 TEST_F(BvhIngest, AClassWhoseFilesAreBrokenIsNone) {
-    write("jump_1.bvh", person());
-    write("run_1.bvh", person("0 0 0 0\n1 0 0\n2 0 0 0\n"));
-    write("walk_1.bvh", person());
+    write("jump_1.bvh", one_person());
+    write("run_1.bvh", one_person("0 0 0 0\n1 0 0\n2 0 0 0\n"));
+    write("walk_1.bvh", one_person());
     BvhOptions options;
     options.pattern = "{action}_{index}";
     const auto summary = ingest(options);
@@ -60,7 +60,7 @@ TEST_F(BvhIngest, AClassWhoseFilesAreBrokenIsNone) {
 
 TEST_F(BvhIngest, FilesOfOneNameInSeveralFoldersAreClips) {
     for (const char* file : {"run/001.bvh", "run/002.bvh", "walk/001.bvh", "walk/002.bvh"})
-        write(file, person());
+        write(file, one_person());
     BvhOptions options;
     options.pattern = "{action}/{index}";
     ingest(options);
@@ -72,7 +72,7 @@ TEST_F(BvhIngest, FilesOfOneNameInSeveralFoldersAreClips) {
 
 TEST_F(BvhIngest, DoubtsAreCountedWithTheFirstFewClips) {
     for (int i = 1; i < 6; ++i)
-        write(fmt::format("walk_{}.bvh", i), person("-900 0 0 0\n1 0 0 0\n2 0 0 0\n"));
+        write(fmt::format("walk_{}.bvh", i), one_person("-900 0 0 0\n1 0 0 0\n2 0 0 0\n"));
     BvhOptions options;
     options.pattern = "{action}_{index}";
     const auto summary = ingest(options);
@@ -90,7 +90,7 @@ TEST_F(BvhIngest, DoubtsAreCountedWithTheFirstFewClips) {
 }
 
 TEST_F(BvhIngest, TheHeightOfADatasetIsSeenInIt) {
-    write("walk_1.bvh", person());
+    write("walk_1.bvh", one_person());
     BvhOptions options;
     options.pattern = "{action}_{index}";
     ingest(options);

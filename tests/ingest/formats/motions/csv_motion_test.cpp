@@ -36,7 +36,7 @@ void expect_numbers(const CsvMotion& motion, const std::vector<double>& wanted) 
             << i;
 }
 
-const double unseen = std::nan("");
+const double not_there = std::nan("");
 
 }  // namespace
 
@@ -52,7 +52,7 @@ TEST(CsvMotion, ReadsALineAFrame) {
         EXPECT_EQ(motion.persons, 1U);
         expect_numbers(motion, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
     }
-    expect_numbers(read("1,,nan,-4e-1,5,NaN\n"), {1, unseen, unseen, -0.4, 5, unseen});
+    expect_numbers(read("1,,nan,-4e-1,5,NaN\n"), {1, not_there, not_there, -0.4, 5, not_there});
 }
 
 TEST(CsvMotion, ReadsALineAJoint) {
@@ -63,9 +63,10 @@ TEST(CsvMotion, ReadsALineAJoint) {
         "0.5,\"hips\",1,7,8,nan,1\n");
     EXPECT_EQ(motion.frames, 2U);
     EXPECT_EQ(motion.persons, 2U);
-    expect_numbers(motion,
-                   {unseen, unseen, unseen, unseen, unseen, unseen, 4, 5, 6,      unseen, unseen, unseen,  //
-                    unseen, unseen, unseen, 1,      2,      3,      7, 8, unseen, unseen, unseen, unseen});
+    expect_numbers(motion, {not_there, not_there, not_there, not_there, not_there, not_there,
+                            4,         5,         6,         not_there, not_there, not_there,  //
+                            not_there, not_there, not_there, 1,         2,         3,
+                            7,         8,         not_there, not_there, not_there, not_there});
     EXPECT_EQ(read("frame,joint,x,y,z\n0,1,1,2,3\n").persons, 1U);
 }
 

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t joints = 3;
+constexpr std::size_t joint_count = 3;
 using Names = std::vector<std::string>;
 
 struct MotionsOnDevice : testing::Test {
@@ -110,12 +110,12 @@ std::vector<double> limbs_of(const double* positions, std::size_t frames, std::s
     const auto bodies = frames * persons;
     for (std::size_t b = 0; b < bodies; ++b)
         for (std::size_t d = 0; d < 3; ++d)
-            mean[d] += positions[b * joints * 3 + d] / static_cast<double>(bodies);
+            mean[d] += positions[b * joint_count * 3 + d] / static_cast<double>(bodies);
     std::vector<double> out;
     for (std::size_t b = 0; b < bodies; ++b) {
-        const double* body = positions + b * joints * 3;
+        const double* body = positions + b * joint_count * 3;
         for (std::size_t d = 0; d < 3; ++d) out.push_back(body[d] - mean[d]);
-        for (std::size_t j = 1; j < joints; ++j) {
+        for (std::size_t j = 1; j < joint_count; ++j) {
             const double x = body[3 * j] - body[3 * j - 3], y = body[3 * j + 1] - body[3 * j - 2],
                          z = body[3 * j + 2] - body[3 * j - 1],
                          length = std::sqrt(x * x + y * y + z * z) + 1e-4;
@@ -134,8 +134,8 @@ void expect_near(const std::vector<float>& got, const std::vector<double>& want)
 }  // namespace
 
 TEST_F(MotionsOnDevice, PositionsBecomeLimbs) {
-    const auto values = add_npy("takes/walk_1.npy", {20, joints, 3});
-    const auto two = add_npy("both.npy", {10, joints, 3}, 2);
+    const auto values = add_npy("takes/walk_1.npy", {20, joint_count, 3});
+    const auto two = add_npy("both.npy", {10, joint_count, 3}, 2);
     options.fps = 25;
     const auto summary = run();
     const auto dataset = made();
@@ -146,7 +146,7 @@ TEST_F(MotionsOnDevice, PositionsBecomeLimbs) {
     expect_near(dataset.motion(1).values, limbs_of(values.data(), 20, 1));
     double length = 0;
     for (std::size_t t = 0; t < 20; ++t) {
-        const double* body = &values[t * joints * 3];
+        const double* body = &values[t * joint_count * 3];
         length += std::hypot(body[3] - body[0], body[4] - body[1], body[5] - body[2]) / 20;
     }
     EXPECT_NEAR(dataset.bone_length(1)[1], length, 1e-6);
@@ -155,7 +155,7 @@ TEST_F(MotionsOnDevice, PositionsBecomeLimbs) {
 }
 
 TEST_F(MotionsOnDevice, ManyClipsOfAnArrayHaveTheirLabels) {
-    const auto values = add_npy("all.npy", {4, 6, 2, joints, 3});
+    const auto values = add_npy("all.npy", {4, 6, 2, joint_count, 3});
     write_file(
         dir / "labels.tsv",
         "name\tlabel\tsubject\nall_0\twalk\ts1\nall_1\tjump, high\ts2\nall_3\twalk\ts2\nall_9\twalk\ts1\n");
@@ -166,7 +166,7 @@ TEST_F(MotionsOnDevice, ManyClipsOfAnArrayHaveTheirLabels) {
     EXPECT_EQ(clips_of(dataset), (Names{"all_0:walk", "all_1:jump, high", "all_3:walk"}));
     EXPECT_EQ(dataset.split("test"), (std::vector<std::size_t>{1, 2}));
     EXPECT_EQ(dataset.header().persons, 2U);
-    expect_near(dataset.motion(2).values, limbs_of(&values[3 * 6 * 2 * joints * 3], 6, 2));
+    expect_near(dataset.motion(2).values, limbs_of(&values[3 * 6 * 2 * joint_count * 3], 6, 2));
     EXPECT_EQ(summary.left_out, (std::map<std::string, std::uint64_t>{{"dropped", 1}}));
     EXPECT_NE(read_file(dir / "out/rejected.csv").find("all.npy,dropped,clip 2: no row of"),
               std::string::npos);
@@ -177,7 +177,7 @@ TEST_F(MotionsOnDevice, ManyClipsOfAnArrayHaveTheirLabels) {
 }
 
 TEST_F(MotionsOnDevice, FoldersAndNamesTellTheAction) {
-    for (const char* name : {"walk/1.npy", "walk/2.npy", "run/1.npy"}) add_npy(name, {5, joints, 3});
+    for (const char* name : {"walk/1.npy", "walk/2.npy", "run/1.npy"}) add_npy(name, {5, joint_count, 3});
     options.pattern = "{action}/{index}";
     run();
     EXPECT_EQ(clips_of(made()), (Names{"run_1:run", "walk_1:walk", "walk_2:walk"}));
@@ -187,7 +187,7 @@ TEST_F(MotionsOnDevice, FoldersAndNamesTellTheAction) {
 }
 
 TEST_F(MotionsOnDevice, ThePublicLayoutIsStoredToTheBit) {
-    const auto values = add_public("a.h5", {"A002_1", "A001_0", "dance"}, {6, joints, 5});
+    const auto values = add_public("a.h5", {"A002_1", "A001_0", "dance"}, {6, joint_count, 5});
     const auto summary = run();
     const auto dataset = made();
     EXPECT_EQ(clips_of(dataset), (Names{"A001_0:A001", "A002_1:A002", "dance:motion"}));
@@ -196,9 +196,9 @@ TEST_F(MotionsOnDevice, ThePublicLayoutIsStoredToTheBit) {
     const auto motion = dataset.motion(1);
     for (std::size_t p = 0; p < 2; ++p)
         for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t k = 0; k < joints; ++k)
+            for (std::size_t k = 0; k < joint_count; ++k)
                 for (std::size_t t = 0; t < 5; ++t)
-                    ASSERT_EQ(motion.at(t, p, k)[c], values[((p * 3 + c) * joints + k) * 5 + t]);
+                    ASSERT_EQ(motion.at(t, p, k)[c], values[((p * 3 + c) * joint_count + k) * 5 + t]);
     ASSERT_EQ(summary.doubts.size(), 1U);
     EXPECT_EQ(summary.doubts[0].clips, 3U) << "random numbers are no unit limbs";
     ASSERT_EQ(summary.remarks.size(), 1U);
@@ -206,7 +206,7 @@ TEST_F(MotionsOnDevice, ThePublicLayoutIsStoredToTheBit) {
 }
 
 TEST_F(MotionsOnDevice, AFileThatTellsNeedsNoTopology) {
-    add_public("a.h5", {"A001_0", "A003_0"}, {3, joints, 4}, [](hdf5::Writer& file) {
+    add_public("a.h5", {"A001_0", "A003_0"}, {3, joint_count, 4}, [](hdf5::Writer& file) {
         file.attribute("parents", std::vector<std::int64_t>{-1, 0, 1});
         file.attribute("names", Names{"a", "b", "c"});
         file.attribute("classes", Names{"walk", "run", "sit"});
@@ -224,7 +224,7 @@ TEST_F(MotionsOnDevice, AFileThatTellsNeedsNoTopology) {
 }
 
 TEST_F(MotionsOnDevice, RotationsAreToldByTheirNodes) {
-    add_public("a.h5", {"A001_0"}, {6, joints + 1, 4});
+    add_public("a.h5", {"A001_0"}, {6, joint_count + 1, 4});
     EXPECT_NE(fault().find("no rest pose"), std::string::npos) << fault();
     fs::remove(dir / "raw/a.h5");
     add_public("b.h5", {"A001_0"}, {6, 25, 4});
@@ -245,8 +245,8 @@ TEST_F(MotionsOnDevice, RotationsAreToldByTheirNodes) {
 }
 
 TEST_F(MotionsOnDevice, StoredLimbsAndPositionsShareADataset) {
-    add_public("b.h5", {"A001_0"}, {3, joints, 4});
-    const auto first = add_npy("a.npy", {5, joints, 3}), last = add_npy("c.npy", {6, joints, 3}, 3);
+    add_public("b.h5", {"A001_0"}, {3, joint_count, 4});
+    const auto first = add_npy("a.npy", {5, joint_count, 3}), last = add_npy("c.npy", {6, joint_count, 3}, 3);
     run();
     const auto dataset = made();
     EXPECT_EQ(clips_of(dataset), (Names{"a:motion", "A001_0:A001", "c:motion"}));
@@ -257,7 +257,7 @@ TEST_F(MotionsOnDevice, StoredLimbsAndPositionsShareADataset) {
 }
 
 TEST_F(MotionsOnDevice, PositionsMayStay) {
-    const auto values = add_npy("a.npy", {7, joints, 3});
+    const auto values = add_npy("a.npy", {7, joint_count, 3});
     options.representation = "xyz";
     run();
     const auto dataset = made();
@@ -265,14 +265,14 @@ TEST_F(MotionsOnDevice, PositionsMayStay) {
     std::vector<double> want = values;
     double mean[3] = {};
     for (std::size_t t = 0; t < 7; ++t)
-        for (std::size_t d = 0; d < 3; ++d) mean[d] += values[t * joints * 3 + d] / 7;
+        for (std::size_t d = 0; d < 3; ++d) mean[d] += values[t * joint_count * 3 + d] / 7;
     for (std::size_t i = 0; i < want.size(); ++i) want[i] -= mean[i % 3];
     expect_near(dataset.motion(0).values, want);
 }
 
 TEST_F(MotionsOnDevice, CleaningSmooths) {
     const std::size_t frames = 40;
-    const auto values = add_npy("a.npy", {frames, joints, 3});
+    const auto values = add_npy("a.npy", {frames, joint_count, 3});
     // A Gaussian of 3 frames over 12 either way, edges mirrored with the edge sample repeated.
     std::vector<double> smooth(values.size(), 0);
     double sum = 0;
@@ -282,9 +282,10 @@ TEST_F(MotionsOnDevice, CleaningSmooths) {
             int at = t + i;
             if (at < 0) at = -at - 1;
             if (at >= static_cast<int>(frames)) at = 2 * static_cast<int>(frames) - 1 - at;
-            for (std::size_t k = 0; k < joints * 3; ++k)
-                smooth[static_cast<std::size_t>(t) * joints * 3 + k] +=
-                    std::exp(-i * i / 18.0) / sum * values[static_cast<std::size_t>(at) * joints * 3 + k];
+            for (std::size_t k = 0; k < joint_count * 3; ++k)
+                smooth[static_cast<std::size_t>(t) * joint_count * 3 + k] +=
+                    std::exp(-i * i / 18.0) / sum *
+                    values[static_cast<std::size_t>(at) * joint_count * 3 + k];
         }
     options.clean = true;
     run();
@@ -298,20 +299,20 @@ TEST_F(MotionsOnDevice, CleaningSmooths) {
     const auto positions = made("xyz").motion(0).values;
     for (std::size_t t = 0; t < frames; ++t)
         for (std::size_t d = 0; d < 3; ++d)
-            EXPECT_NEAR(positions[t * joints * 3 + 3 + d] - positions[t * joints * 3 + d],
-                        smooth[t * joints * 3 + 3 + d] - smooth[t * joints * 3 + d], 2e-6);
+            EXPECT_NEAR(positions[t * joint_count * 3 + 3 + d] - positions[t * joint_count * 3 + d],
+                        smooth[t * joint_count * 3 + 3 + d] - smooth[t * joint_count * 3 + d], 2e-6);
 }
 
 TEST_F(MotionsOnDevice, WhatIsWrongIsNamedAndTheRestTaken) {
-    auto values = add_npy("sound.npy", {5, joints, 3});
-    add_npy("other.npy", {5, joints + 1, 3});
-    write_npy("unseen.npy", {5, joints, 3}, std::vector<double>(5 * joints * 3, std::nan("")));
+    auto values = add_npy("sound.npy", {5, joint_count, 3});
+    add_npy("other.npy", {5, joint_count + 1, 3});
+    write_npy("unseen.npy", {5, joint_count, 3}, std::vector<double>(5 * joint_count * 3, std::nan("")));
     write_file(dir / "raw/cut.npy", read_file(dir / "raw/sound.npy").substr(0, 300));
     write_file(dir / "raw/page.npz", "<html>quota exceeded</html>");
     write_file(dir / "raw/words.csv", "a,b\nc,d\n");
     write_file(dir / "raw/no.h5", "no HDF5");
     values[4] = std::nan("");
-    write_npy("gaps.npy", {5, joints, 3}, values);
+    write_npy("gaps.npy", {5, joint_count, 3}, values);
     const auto summary = run();
     EXPECT_EQ(clips_of(made()), (Names{"gaps:motion", "sound:motion"}));
     EXPECT_EQ(summary.left_out, (std::map<std::string, std::uint64_t>{{"broken", 6}}));
@@ -326,7 +327,7 @@ TEST_F(MotionsOnDevice, WhatIsWrongIsNamedAndTheRestTaken) {
 }
 
 TEST_F(MotionsOnDevice, WhatMakesNoDatasetIsOneLine) {
-    add_npy("a.npy", {5, joints + 1, 3});
+    add_npy("a.npy", {5, joint_count + 1, 3});
     EXPECT_EQ(fault().substr(0, 44), "no motion in any file; the first fault is in");
     options.topology.clear();
     EXPECT_NE(fault().find("it does not tell its skeleton; give --topology"), std::string::npos) << fault();
@@ -367,7 +368,7 @@ TEST_F(MotionsOnDevice, NpzTellsAllOfItself) {
 }
 
 TEST_F(MotionsOnDevice, EveryOptionShowsInTheSettings) {
-    add_npy("a_1.npy", {5, joints, 3});
+    add_npy("a_1.npy", {5, joint_count, 3});
     write_file(dir / "labels.csv", "name,label\na_1,x\n");
     const auto settings = [this](auto change) {
         auto changed = options;
