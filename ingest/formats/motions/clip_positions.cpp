@@ -170,7 +170,8 @@ class Reading {
 
     void begin() {
         out_ = {};
-        out_.values.reserve(frames_ * request_.persons * joints_ * 3);  // zeros there would cost as much as reading
+        out_.values.reserve(frames_ * request_.persons * joints_ *
+                            3);  // zeros there would cost as much as reading
         lengths_.assign(request_.persons * joints_, 0);
     }
 
