@@ -20,7 +20,6 @@ cl::Kernel kernel_of(Device& device, const char* name, std::uint32_t hidden) {
 
 Gru::Gru(Device& device, std::uint32_t hidden)
     : device_(&device),
-      hidden_(hidden),
       items_(hidden / units_an_item(device)),
       poses_(kernel_of(device, "poses", hidden)),
       layer_(kernel_of(device, "layer", hidden)),

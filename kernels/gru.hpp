@@ -45,7 +45,7 @@ class Gru {
 
   private:
     Device* device_;
-    std::uint32_t hidden_, items_;
+    std::uint32_t items_;
     cl::Kernel poses_, layer_, dense_;
 };
 
