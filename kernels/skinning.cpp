@@ -2,14 +2,11 @@
 
 #include <algorithm>
 
+#include "kernels/round_up.hpp"
 #include "kernels/sources.hpp"
 
 namespace actformer::kernels {
 namespace {
-
-std::uint32_t round_up_to(std::size_t value, std::size_t step) {
-    return static_cast<std::uint32_t>((value + step - 1) / step * step);
-}
 
 void check(const SkinnedBody& body) {
     const auto demand = [](bool holds, const char* what) {
@@ -86,7 +83,7 @@ Skinning::Skinning(Device& device, const SkinnedBody& body, const SkinningTiles&
       body_((check(body), body.joints)),
       vertex_count_(static_cast<std::uint32_t>(body.vertices())),
       tiles_(tiles),
-      blocks_(round_up_to(body.vertices(), tiles_.vertices) / tiles_.vertices),
+      blocks_(static_cast<std::uint32_t>(round_up(body.vertices(), tiles_.vertices)) / tiles_.vertices),
       shape_(kernel("shape")),
       chain_(kernel("chain")),
       skin_(kernel("skin")) {
@@ -125,7 +122,8 @@ void Skinning::pose(std::span<const float> rotations, std::span<const float> tra
         throw Error("skinning: {} rotations and {} numbers of translation for {} joints",
                     rotations.size() / 9, translations.size(), k);
     if (frames_ == 0) return;
-    const auto frames = static_cast<std::uint32_t>(frames_), padded = round_up_to(frames_, tiles_.panel);
+    const auto frames = static_cast<std::uint32_t>(frames_),
+               padded = static_cast<std::uint32_t>(round_up(frames_, tiles_.panel));
     grow(*device_, features_, std::size_t{padded} * 9 * (k - 1));
     grow(*device_, transforms_, std::size_t{padded} * (12 * k + 3));
     grow(*device_, places_, frames_ * k * 3);

@@ -2,16 +2,13 @@
 
 #include <array>
 
+#include "kernels/round_up.hpp"
 #include "kernels/sources.hpp"
 
 namespace actformer::kernels {
 namespace {
 
 constexpr std::size_t elementwise_group = 64;  // work-items
-
-std::size_t round_up(std::size_t value, std::size_t step) {
-    return (value + step - 1) / step * step;
-}
 
 constexpr std::array<double, 4> points5{0, 1, -1, 2};                 // and infinity
 constexpr std::array<double, 7> points8{0, 1, -1, 2, -2, 0.5, -0.5};  // and infinity
