@@ -1,5 +1,7 @@
 #include "model/nn/flat_parameters.hpp"
 
+#include <algorithm>
+
 namespace actformer::model {
 namespace {
 
@@ -36,6 +38,11 @@ FlatParameters::FlatParameters(std::vector<at::Tensor> parameters, std::int64_t 
 
 void FlatParameters::zero_gradients() {
     gradients_.zero_();
+}
+
+void FlatParameters::follow(const FlatParameters& latest, double decay, std::uint64_t steps) {
+    const auto t = static_cast<double>(steps);
+    values_.lerp_(latest.values_, 1 - std::min(decay, (1 + t) / (10 + t)));
 }
 
 void FlatParameters::want_gradients(bool wanted) {

@@ -22,6 +22,9 @@ class FlatParameters {
     /// Before a backward pass, which adds to the gradients.
     void zero_gradients();
 
+    /// Moves the values towards `latest`, whose EMA of this decay a step they are, behind `steps` steps: the beginning is soon forgotten.
+    void follow(const FlatParameters& latest, double decay, std::uint64_t steps);
+
     /// Whether a backward pass reaches these parameters.
     void want_gradients(bool wanted);
 

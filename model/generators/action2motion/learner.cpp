@@ -3,8 +3,6 @@
 #include <ATen/Parallel.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "model/cpu/random_kernel.hpp"
 #include "model/nn/module_arrays.hpp"
 #include "model/nn/tensor_array.hpp"
@@ -75,13 +73,7 @@ void MotionLearner::step(std::uint64_t step, double rate_share) {
         parameters_.gradients().add_(parameters_.values(), settings_.weight_decay);
     adam_.step(rate_share);
     sums_.add_(parameters_.remarks());
-    if (ema_) move_ema();
-}
-
-void MotionLearner::move_ema() {
-    const auto t = static_cast<double>(adam_.steps);
-    const double decay = std::min(settings_.average, (1 + t) / (10 + t));  // the beginning is soon forgotten
-    ema_parameters_->values().lerp_(parameters_.values(), 1 - decay);
+    if (ema_) ema_parameters_->follow(parameters_, settings_.average, adam_.steps);
 }
 
 Measures MotionLearner::losses(const std::vector<double>& sums, std::uint64_t steps) const {

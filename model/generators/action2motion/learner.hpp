@@ -33,7 +33,6 @@ class MotionLearner : public Learner {
 
   private:
     at::Tensor noise(std::uint64_t step) const;
-    void move_ema();
     std::vector<at::Tensor> optimiser_state();
 
     Settings settings_;

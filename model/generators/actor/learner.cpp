@@ -2,8 +2,6 @@
 
 #include <ATen/Parallel.h>
 
-#include <algorithm>
-
 #include "model/nn/module_arrays.hpp"
 #include "model/nn/tensor_array.hpp"
 #include "model/train/training.hpp"
@@ -72,14 +70,7 @@ void ActorLearner::step(std::uint64_t step, double rate_share) {
     setup_.processes.average(parameters_.message());
     adam_.step(rate_share);
     sums_.add_(parameters_.remarks());
-    average();
-}
-
-void ActorLearner::average() {
-    if (!ema_values_) return;
-    const auto t = static_cast<double>(adam_.steps);
-    const double decay = std::min(training_.average, (1 + t) / (10 + t));  // the beginning is soon forgotten
-    ema_values_->values().lerp_(parameters_.values(), 1 - decay);
+    if (ema_values_) ema_values_->follow(parameters_, training_.average, adam_.steps);
 }
 
 Measures ActorLearner::losses(const std::vector<double>& sums, std::uint64_t steps) const {

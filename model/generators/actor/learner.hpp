@@ -30,7 +30,6 @@ class ActorLearner : public Learner {
   private:
     at::Tensor noise(std::uint64_t step) const;
     std::vector<at::Tensor> optimiser_state();
-    void average();
 
     ActorSettings settings_;
     ActorTraining training_;

@@ -1,7 +1,5 @@
 #include "model/generators/adversarial/gan.hpp"
 
-#include <algorithm>
-
 #include "base/error.hpp"
 #include "model/nn/autocast.hpp"
 #include "model/nn/module_arrays.hpp"
@@ -84,10 +82,8 @@ void Gan::step_generator(const at::Tensor& labels, std::uint64_t draw) {
     processes_.average(generator_parameters_.message());
     generator_adam_.step(rate_share_);
     sums_.narrow(0, 3, 1).add_(generator_parameters_.remarks());
-    if (!ema_parameters_) return;
-    const auto t = static_cast<double>(generator_adam_.steps);
-    const double decay = std::min(settings_.average, (1 + t) / (10 + t));  // the beginning is soon forgotten
-    ema_parameters_->values().lerp_(generator_parameters_.values(), 1 - decay);
+    if (ema_parameters_)
+        ema_parameters_->follow(generator_parameters_, settings_.average, generator_adam_.steps);
 }
 
 GanGenerator& Gan::ema() {
