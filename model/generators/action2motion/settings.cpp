@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "model/generators/action2motion/chains.hpp"
+#include "model/generators/generator_settings.hpp"
 #include "model/train/key_table.hpp"
 
 namespace actformer::model::action2motion {
@@ -75,15 +76,6 @@ const KeyTable<Settings>& table() {
     return all;
 }
 
-void check_motions(const Settings& asked, const MotionSpec& spec) {
-    if (asked.persons != 0 && asked.persons != spec.persons)
-        throw Error("{}: {} person{} a clip, but the configuration says persons: {}", spec.where,
-                    spec.persons, spec.persons == 1 ? "" : "s", asked.persons);
-    if (asked.classes != 0 && asked.classes != spec.classes)
-        throw Error("{}: {} classes, but the configuration says classes: {}", spec.where, spec.classes,
-                    asked.classes);
-}
-
 void check_lie(const MotionSpec& spec) {
     if (spec.persons != 1)
         throw Error("{}: {} persons a clip; body: lie is for one, body: plain takes several", spec.where,
@@ -107,9 +99,9 @@ std::vector<Key> keys() {
 }
 
 Settings settings_of(const Config& config, const MotionSpec& spec) {
+    check_subjects(config, spec.persons, spec.classes, spec.where);
     auto settings = table().read(config);
     if (config.has("seed")) settings.seed = static_cast<std::uint64_t>(config.get<std::int64_t>("seed"));
-    check_motions(settings, spec);
     if (settings.body == Body::lie) check_lie(spec);
     if (settings.hidden % width_step != 0)
         throw Error("hidden: {} is no multiple of {}; as in hidden: {}", settings.hidden, width_step,
