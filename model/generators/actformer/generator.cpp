@@ -6,7 +6,7 @@
 namespace actformer::model {
 namespace {
 
-constexpr double norm_epsilon = 1e-6, body_leak = 0.2;
+constexpr double norm_epsilon = 1e-6, leak = 0.2;
 
 at::Tensor tensor_of(const HopMatrix& matrix, at::ScalarType type) {
     auto values = matrix.values;
@@ -141,7 +141,7 @@ at::Tensor Generator::graph_layer(const at::Tensor& x, const std::string& name,
     const auto n = x.size(0), t = x.size(1), nodes = x.size(2);
     const auto mapped =
         linear(x, name).view({n, t, nodes, 2, -1}).transpose(2, 3);  // (N, T, hops, nodes, out)
-    const auto y = at::leaky_relu(at::matmul(sums, mapped).sum(2), body_leak);
+    const auto y = at::leaky_relu(at::matmul(sums, mapped).sum(2), leak);
     return at::layer_norm(y, {y.size(-1)}, {}, {}, norm_epsilon);
 }
 

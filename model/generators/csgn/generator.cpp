@@ -15,11 +15,6 @@ constexpr double leak = 0.2, linear = 1;
 constexpr std::int64_t batches = 16, motions_a_batch = 64;
 constexpr std::uint64_t first_draw = std::uint64_t{1} << 55U;
 
-CsgnSettings checked(CsgnSettings settings) {
-    check(settings);
-    return settings;
-}
-
 }  // namespace
 
 CsgnGenerator::CsgnGenerator(CsgnSettings settings, std::uint64_t seed, at::ScalarType type)

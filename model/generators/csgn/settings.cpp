@@ -66,11 +66,10 @@ CsgnSettings csgn_settings(const Config& config, const MotionSpec& spec) {
     settings.classes = spec.classes;
     settings.parents = spec.representation.node_parents(spec.topology);
     settings.representation = spec.representation;
-    check(settings);
-    return settings;
+    return checked(std::move(settings));
 }
 
-void check(const CsgnSettings& s) {
+CsgnSettings checked(CsgnSettings s) {
     if (s.nodes() < 2 || s.persons == 0 || s.classes == 0)
         throw Error("csgn: {} nodes, {} persons and {} classes are too few", s.nodes(), s.persons, s.classes);
     if (s.width == 0 || s.d_width == 0 || s.latent == 0)
@@ -79,6 +78,7 @@ void check(const CsgnSettings& s) {
         throw Error("csgn: {} frames, but the discriminator halves them four times and needs at least {}",
                     s.frames, csgn_fewest_frames);
     if (!(s.length_scale > 0)) throw Error("csgn: length_scale must be above 0 latent frames");
+    return s;
 }
 
 }  // namespace actformer::model

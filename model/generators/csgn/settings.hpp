@@ -55,6 +55,6 @@ std::vector<Key> csgn_keys();
 CsgnSettings csgn_settings(const Config& config, const MotionSpec& spec);
 
 /// Throws Error where the settings describe no network.
-void check(const CsgnSettings& settings);
+CsgnSettings checked(CsgnSettings settings);
 
 }  // namespace actformer::model
