@@ -7,6 +7,7 @@
 #include "model/nn/fused.hpp"
 #include "tests/support/gradients.hpp"
 #include "tests/support/rounding.hpp"
+#include "tests/support/tensors.hpp"
 
 using namespace actformer::model;
 using namespace actformer::test;
@@ -41,11 +42,6 @@ at::Tensor plain_attention(const at::Tensor& x, const LinearTensors& norm, const
     const auto seen = scores.softmax(-1).matmul(all[2]).transpose(2, 3).reshape({a, b, c, width});
     const auto y = turned + at::linear(seen, proj.weight, proj.bias);
     return over_persons ? y.transpose(1, 2) : y;
-}
-
-void expect_near(const at::Tensor& ours, const at::Tensor& theirs, double tolerance) {
-    EXPECT_LE((ours - theirs).abs().max().item<double>(),
-              tolerance * (1 + theirs.abs().max().item<double>()));
 }
 
 struct ActformerLayers : testing::Test {

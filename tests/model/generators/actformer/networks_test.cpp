@@ -12,6 +12,7 @@
 #include "model/generators/adversarial/prior.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tests/support/tensors.hpp"
 
 using namespace actformer;
 using namespace actformer::model;
@@ -123,11 +124,6 @@ void stir(torch::nn::Module& network) {
         if (weight.dim() == 1) weight.add_(at::randn_like(weight), 0.2);
 }
 
-void expect_agree(const at::Tensor& ours, const at::Tensor& theirs, double tolerance) {
-    const auto scale = 1 + theirs.abs().max().item<double>();
-    EXPECT_LE((ours.to(at::kDouble) - theirs.to(at::kDouble)).abs().max().item<double>(), tolerance * scale);
-}
-
 /// The same weights and vectors in both.
 void copy_weights(const torch::nn::Module& from, torch::nn::Module& to) {
     const at::NoGradGuard no_gradients;
@@ -187,7 +183,7 @@ TEST_F(ActformerNetworks, StartAlikeForASeedAndNotForAnother) {
         EXPECT_FALSE(item.value().equal(other.named_parameters()[item.key()])) << item.key();
     }
     const auto classes = one.named_parameters()["classes.weight"];
-    expect_agree(classes.mm(classes.t()), at::eye(5), 1e-6);  // orthogonal
+    expect_near(classes.mm(classes.t()), at::eye(5), 1e-6);  // orthogonal
 }
 
 TEST_F(ActformerNetworks, BothPathsAgreeForwardAndBack) {
@@ -204,9 +200,9 @@ TEST_F(ActformerNetworks, BothPathsAgreeForwardAndBack) {
         const auto labels = some_labels(4);
         for (int step = 0; step < 2; ++step) {  // the second sees the vectors that the first moved
             const auto ours = fused.forward(latent, labels), theirs = plain.forward(latent, labels);
-            expect_agree(ours, theirs, 1e-9);
+            expect_near(ours, theirs, 1e-9);
             const auto score = judge.forward(ours, labels), plain_score = plain_judge.forward(theirs, labels);
-            expect_agree(score, plain_score, 1e-9);
+            expect_near(score, plain_score, 1e-9);
             score.square().sum().backward();
             plain_score.square().sum().backward();
         }
@@ -219,7 +215,7 @@ TEST_F(ActformerNetworks, BothPathsAgreeForwardAndBack) {
                     << item.key();
             }
             const auto buffers = b.named_buffers();
-            for (const auto& item : a.named_buffers()) expect_agree(item.value(), buffers[item.key()], 1e-9);
+            for (const auto& item : a.named_buffers()) expect_near(item.value(), buffers[item.key()], 1e-9);
         };
         compare(fused, plain);
         compare(judge, plain_judge);
@@ -235,15 +231,15 @@ TEST_F(ActformerNetworks, ThePapersSizeAgreesInFloat) {
     const auto labels = some_labels(3);
     // Two libraries' orders of float sums over some thousand products, through four blocks and five convolutions.
     const auto ours = fused.forward(latent, labels), theirs = plain.forward(latent, labels);
-    expect_agree(ours, theirs, 2e-4);
-    expect_agree(judge.forward(ours, labels), plain_judge.forward(theirs, labels), 1e-3);
+    expect_near(ours, theirs, 2e-4);
+    expect_near(judge.forward(ours, labels), plain_judge.forward(theirs, labels), 1e-3);
     const at::NoGradGuard no_gradients;
     fused.eval();
     const auto kept = fused.forward(latent, labels);
-    expect_agree(kept, fused.forward(latent, labels), 0);
+    expect_near(kept, fused.forward(latent, labels), 0);
     at::GradMode::set_enabled(true);
-    expect_agree(kept, fused.forward(latent, labels),
-                 1e-6);  // in place, and with what is kept for the way back
+    expect_near(kept, fused.forward(latent, labels),
+                1e-6);  // in place, and with what is kept for the way back
 }
 
 TEST_F(ActformerNetworks, GeneratedLimbsAndRotationsAreUnitVectors) {
@@ -259,11 +255,11 @@ TEST_F(ActformerNetworks, GeneratedLimbsAndRotationsAreUnitVectors) {
     const auto rotations = Generator(settings, 1).forward(random_latent(settings, 3, 9), some_labels(3));
     const auto six = rotations.view({3, 2, 6, 9, 8}).slice(4, 0, 7);
     const auto a = six.slice(2, 0, 3), b = six.slice(2, 3, 6);
-    expect_agree(a.norm(2, {2}), at::ones({3, 2, 9, 7}), 1e-5);
-    expect_agree(b.norm(2, {2}), at::ones({3, 2, 9, 7}), 1e-5);
-    expect_agree((a * b).sum(2), at::zeros({3, 2, 9, 7}), 1e-5);
+    expect_near(a.norm(2, {2}), at::ones({3, 2, 9, 7}), 1e-5);
+    expect_near(b.norm(2, {2}), at::ones({3, 2, 9, 7}), 1e-5);
+    expect_near((a * b).sum(2), at::zeros({3, 2, 9, 7}), 1e-5);
     const auto translation = rotations.view({3, 2, 6, 9, 8}).select(4, 7);
-    expect_agree(translation.slice(2, 3), at::zeros({3, 2, 3, 9}), 0);
+    expect_near(translation.slice(2, 3), at::zeros({3, 2, 3, 9}), 0);
     EXPECT_GT(translation.slice(2, 0, 3).abs().max().item<double>(), 0);
 }
 
@@ -395,9 +391,8 @@ TEST_F(ActformerNetworks, AgreeWithNumPy) {
             d.set_fused(fused);
             const auto ours = g.forward(latent, labels);
             // Floats against doubles, through as many layers as the network has.
-            expect_agree(ours, at::from_blob(generated.data(), ours.sizes(), at::kFloat), 2e-4);
-            expect_agree(d.forward(motion, labels), at::from_blob(scores.data(), {samples}, at::kFloat),
-                         2e-4);
+            expect_near(ours, at::from_blob(generated.data(), ours.sizes(), at::kFloat), 2e-4);
+            expect_near(d.forward(motion, labels), at::from_blob(scores.data(), {samples}, at::kFloat), 2e-4);
         }
         std::filesystem::remove(dir / "out.h5");
     }

@@ -11,6 +11,7 @@
 #include "model/nn/fused_post_norm.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tests/support/tensors.hpp"
 
 using namespace actformer;
 using namespace actformer::model;
@@ -52,11 +53,6 @@ at::Tensor some_labels(std::int64_t samples) {
 void stir(torch::nn::Module& network) {
     const at::NoGradGuard no_gradients;
     for (auto& weight : network.parameters()) weight.add_(at::randn_like(weight), 0.05);
-}
-
-void expect_near(const at::Tensor& ours, const at::Tensor& theirs, double tolerance) {
-    const auto scale = 1 + theirs.abs().max().item<double>();
-    EXPECT_LE((ours.to(at::kDouble) - theirs.to(at::kDouble)).abs().max().item<double>(), tolerance * scale);
 }
 
 /// Everything at once: encode, draw, decode.

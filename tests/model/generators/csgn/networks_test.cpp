@@ -10,6 +10,7 @@
 #include "tests/support/command.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tests/support/tensors.hpp"
 
 using namespace actformer;
 using namespace actformer::model;
@@ -55,14 +56,6 @@ at::Tensor random_latent(const CsgnSettings& s, std::int64_t samples, std::int64
 
 at::Tensor some_labels(std::int64_t samples) {
     return at::arange(samples, at::kLong).remainder(5);
-}
-
-void expect_near(const at::Tensor& ours, const at::Tensor& theirs, double tolerance,
-                 const std::string& what = "") {
-    ASSERT_EQ(ours.sizes(), theirs.sizes()) << what;
-    const auto scale = 1 + theirs.abs().max().item<double>();
-    EXPECT_LE((ours.to(at::kDouble) - theirs.to(at::kDouble)).abs().max().item<double>(), tolerance * scale)
-        << what;
 }
 
 void copy_all(const torch::nn::Module& from, torch::nn::Module& to) {
