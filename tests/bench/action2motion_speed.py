@@ -9,30 +9,14 @@ import argparse
 import os
 import runpy
 import sys
-import time
 
 import torch
 
-
-def best(work, rounds):
-    work()
-    wall, busy = [], []
-    for _ in range(rounds):
-        t, p = time.time(), time.process_time()
-        work()
-        wall.append(time.time() - t)
-        busy.append(time.process_time() - p)
-    return min(wall), min(busy)
+import peer
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument('folder')
-    for name, value in (('persons', 1), ('classes', 94), ('frames', 60), ('batch', 128), ('rounds', 3)):
-        parser.add_argument('--' + name, type=int, default=value)
-    parser.add_argument('--truth', action='store_true')
-    o = parser.parse_args()
-    torch.set_num_threads(int(os.environ.get('OMP_NUM_THREADS', '2')))
+    o = peer.options(128, '--truth')
     reference = runpy.run_path(os.path.join(o.folder, 'action2motion.py'))
     c = argparse.Namespace(dim=75 * o.persons, classes=o.classes, latent=30, hidden=128, time=1, lie=False)
     weights = {k: v.requires_grad_() for k, v in reference['draw'](reference['spec'](c), 0).items()}
@@ -51,7 +35,7 @@ def main():
             labels = torch.randint(0, o.classes, (100,))
             reference['generate'](weights, c, labels, o.frames, torch.randn(o.frames, 100, 30), 'raw', None)
 
-    print(*('%.4f' % seconds for work in (step, generate) for seconds in best(work, o.rounds)))
+    peer.tell(o.rounds, step, generate)
 
 
 if __name__ == '__main__':

@@ -9,29 +9,14 @@ import argparse
 import os
 import runpy
 import sys
-import time
 
 import torch
 
-
-def best(work, rounds):
-    work()
-    wall, busy = [], []
-    for _ in range(rounds):
-        t, p = time.time(), time.process_time()
-        work()
-        wall.append(time.time() - t)
-        busy.append(time.process_time() - p)
-    return min(wall), min(busy)
+import peer
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument('folder')
-    for name, value in (('persons', 1), ('classes', 94), ('frames', 60), ('batch', 20), ('rounds', 3)):
-        parser.add_argument('--' + name, type=int, default=value)
-    o = parser.parse_args()
-    torch.set_num_threads(int(os.environ.get('OMP_NUM_THREADS', '2')))
+    o = peer.options(20)
     actor = runpy.run_path(os.path.join(o.folder, 'actor.py'))
     c = argparse.Namespace(joints=25, feats=3 * o.persons, frames=o.frames, classes=o.classes, latent=256, ff=1024, layers=8, heads=4,
                            arch='transformer', ablation='', seed=0, init='paper')
@@ -52,7 +37,7 @@ def main():
             net.decode(torch.randn(100, 256), torch.randint(0, o.classes, (100,)), torch.ones(100, o.frames, dtype=torch.bool),
                        torch.full((100,), o.frames))
 
-    print(*('%.4f' % seconds for work in (step, generate) for seconds in best(work, o.rounds)))
+    peer.tell(o.rounds, step, generate)
 
 
 if __name__ == '__main__':

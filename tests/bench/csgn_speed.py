@@ -9,21 +9,11 @@ import argparse
 import importlib.util
 import os
 import sys
-import time
 
 import numpy
 import torch
 
-
-def best(work, rounds):
-    work()
-    wall, busy = [], []
-    for _ in range(rounds):
-        t, p = time.time(), time.process_time()
-        work()
-        wall.append(time.time() - t)
-        busy.append(time.process_time() - p)
-    return min(wall), min(busy)
+import peer
 
 
 def load(folder):
@@ -44,12 +34,7 @@ def root(c):
 
 
 def main():
-    parser = argparse.ArgumentParser()
-    parser.add_argument('folder')
-    for name, value in (('persons', 1), ('classes', 94), ('frames', 60), ('batch', 64), ('rounds', 3)):
-        parser.add_argument('--' + name, type=int, default=value)
-    o = parser.parse_args()
-    torch.set_num_threads(int(os.environ.get('OMP_NUM_THREADS', '2')))
+    o = peer.options(64)
     csgn = load(o.folder)
     c = argparse.Namespace(skeleton='ntu', channels=3, persons=o.persons, frames=o.frames, classes=o.classes, base=32, latent=512,
                            latent_frames=-(-o.frames // 16))
@@ -85,7 +70,7 @@ def main():
         with torch.no_grad():
             net.G(latent(100), labels(100), train=False)
 
-    print(*('%.4f' % seconds for work in (step, generate) for seconds in best(work, o.rounds)))
+    peer.tell(o.rounds, step, generate)
 
 
 if __name__ == '__main__':
