@@ -38,7 +38,7 @@ Sequence perform(const PlannedSequence& planned, std::size_t number, std::uint64
     const auto performer = 1 + random.below(60);
     for (std::size_t i = 0; i < planned.acts.size(); ++i) {
         auto motion = smpl_solo(*acts()[planned.acts[i]].programme, {seed, 0xBABE3, number, i},
-                                static_cast<std::uint64_t>(performer));
+                                static_cast<std::uint64_t>(performer), of_mocap);
         const auto frames = motion.size();
         if (i == 0) place(motion, random.uniform(-180, 180), {random.normal(), 0, random.normal()});
         go_on(out.motion, std::move(motion), between);

@@ -43,7 +43,8 @@ Clip clip_at(std::size_t i, std::uint64_t seed) {
     const auto& programmes = classes()[label];
     const std::vector<std::uint64_t> key{seed, 0x4AC7, i};
     Random random{seed, 0x4AC8, i};
-    auto motion = smpl_solo(*programmes[turn % programmes.size()], key, 1 + turn % 12);  // twelve persons
+    auto motion =
+        smpl_solo(*programmes[turn % programmes.size()], key, 1 + turn % 12, of_video);  // twelve persons
     const double heading = 40 * random.normal();
     place_before_camera(motion, heading, 0.3 * random.normal(), 2.6);
     Clip clip{motion.size(), {}, {}};

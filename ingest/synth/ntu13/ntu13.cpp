@@ -17,8 +17,8 @@ namespace {
 const std::vector<int> actions{6, 7, 8, 9, 22, 23, 24, 38, 80, 93, 99, 100, 102};
 
 VibeTrack track_of(const ClipId& clip, std::size_t i, std::uint64_t seed) {
-    auto motion =
-        smpl_solo(programme_of(clip.action), {seed, 0x4713, i}, static_cast<std::uint64_t>(clip.performer));
+    auto motion = smpl_solo(programme_of(clip.action), {seed, 0x4713, i},
+                            static_cast<std::uint64_t>(clip.performer), of_video);
     Random random{seed, 0x4714, i};
     const double heading = 17 * random.normal();
     place_before_camera(motion, heading, 0.3 * random.normal(), 3.5);

@@ -30,7 +30,8 @@ std::string nturecon_pickle(const ClipId& clip, std::uint64_t seed, std::uint64_
                                          static_cast<std::uint64_t>(clip.performer),
                                          static_cast<std::uint64_t>(clip.replication),
                                          static_cast<std::uint64_t>(clip.action)};
-    auto motion = smpl_solo(programme_of(clip.action), key, static_cast<std::uint64_t>(clip.performer));
+    auto motion =
+        smpl_solo(programme_of(clip.action), key, static_cast<std::uint64_t>(clip.performer), of_video);
     Random random{seed, 0x4EC1, key[2], key[3], key[4], key[5], key[6]};
     const double heading = 17 * random.normal();
     place_before_camera(motion, heading, 0.2 * random.normal(), 3);

@@ -18,23 +18,25 @@ SmplPose between(const SmplPose& a, const SmplPose& b, double u) {
 }  // namespace
 
 SmplPlay smpl_play(const Programme& programme, const std::vector<std::uint64_t>& key,
-                   const std::vector<std::uint64_t>& performers) {
+                   const std::vector<std::uint64_t>& performers, const Life& life) {
     Casting casting{key, {}};
     for (int p = 0; p < programme.persons; ++p)
         casting.cast.push_back({smpl_body(), performers.at(static_cast<std::size_t>(p))});
     const auto played = play(programme, casting);
     SmplPlay out{std::vector<SmplMotion>(static_cast<std::size_t>(played.persons)), played.contact};
-    for (const auto& figures : played.frames)
-        for (std::size_t p = 0; p < out.persons.size(); ++p) {
-            const auto pose = smpl_pose(figures[p]);
-            out.persons[p].push_back(played.mirrored ? mirrored(pose) : pose);
-        }
+    for (std::size_t p = 0; p < out.persons.size(); ++p) {
+        auto& motion = out.persons[p];
+        for (const auto& figures : played.frames) motion.push_back(smpl_pose(figures[p]));
+        enliven(motion, life, casting.stream(2 + p));
+        if (played.mirrored)
+            for (auto& pose : motion) pose = mirrored(pose);
+    }
     return out;
 }
 
 SmplMotion smpl_solo(const Programme& programme, const std::vector<std::uint64_t>& key,
-                     std::uint64_t performer) {
-    return std::move(smpl_play(programme, key, {performer}).persons[0]);
+                     std::uint64_t performer, const Life& life) {
+    return std::move(smpl_play(programme, key, {performer}, life).persons[0]);
 }
 
 void place(SmplMotion& motion, double heading, const Vec& way) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ingest/synth/performer/play.hpp"
+#include "ingest/synth/smpl/life.hpp"
 #include "ingest/synth/smpl/smpl_pose.hpp"
 
 namespace actformer::ingest::synth {
@@ -21,11 +22,11 @@ struct SmplPlay {
 
 /// `key` makes the performance the one it is, `performers` tells habits, a number a person. All have smpl_body().
 SmplPlay smpl_play(const Programme& programme, const std::vector<std::uint64_t>& key,
-                   const std::vector<std::uint64_t>& performers);
+                   const std::vector<std::uint64_t>& performers, const Life& life);
 
 /// The motion of a programme's only person.
 SmplMotion smpl_solo(const Programme& programme, const std::vector<std::uint64_t>& key,
-                     std::uint64_t performer);
+                     std::uint64_t performer, const Life& life);
 
 /// Turned about y by `heading` degrees, and then moved by `way`.
 void place(SmplMotion& motion, double heading, const Vec& way);

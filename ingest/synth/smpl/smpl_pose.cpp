@@ -1,5 +1,6 @@
 #include "ingest/synth/smpl/smpl_pose.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "ingest/synth/rotation_vector.hpp"
@@ -7,48 +8,18 @@
 namespace actformer::ingest::synth {
 namespace {
 
-enum SmplJoint : std::size_t {
-    pelvis24,
-    left_hip24,
-    right_hip24,
-    spine1,
-    left_knee24,
-    right_knee24,
-    spine2,
-    left_ankle24,
-    right_ankle24,
-    spine3,
-    left_foot24,
-    right_foot24,
-    neck24,
-    left_collar,
-    right_collar,
-    head24,
-    left_shoulder24,
-    right_shoulder24,
-    left_elbow24,
-    right_elbow24,
-    left_wrist24,
-    right_wrist24,
-    left_hand24,
-    right_hand24
-};
+constexpr double standing_ankle = 0.075;  // above the sole, metres
 
-using Rotations = std::array<Rotation, smpl_joints>;
-
-const std::array<Vec, smpl_joints>& offsets() {
-    static const auto all = [] {
-        const auto numbers = generic_skeleton().offsets;
-        std::array<Vec, smpl_joints> out;
-        for (std::size_t j = 0; j < smpl_joints; ++j)
-            out[j] = {numbers[3 * j], numbers[3 * j + 1], numbers[3 * j + 2]};
-        return out;
-    }();
-    return all;
+/// Toes below the foot: they lie on the floor when the heel rises above them, and straighten as the ball of the foot leaves it.
+Rotation toes_of(const Vec& along, const Vec& ball) {
+    const Vec rest = normalised(smpl_offsets()[left_foot24]);
+    const double heel_up = (std::asin(-along.y) - std::asin(-rest.y)) * 180 / pi;
+    const double lifted = ease((ball.y - standing_ankle - smpl_offsets()[left_foot24].y) / 0.1);
+    return about_x(-std::clamp(heel_up, 0.0, 50.0) * (1 - lifted));
 }
 
 /// A bone from `from` to `to` along -y, which bends about x as knees do.
-void leg(Rotations& world, const Figure& f, bool left) {
+void leg(SmplTurns& world, const Figure& f, bool left) {
     const Vec hip = f.at[left ? left_hip : right_hip], knee = f.at[left ? left_knee : right_knee],
               ankle = f.at[left ? left_ankle : right_ankle], toes = f.at[left ? left_foot : right_foot];
     const Vec thigh = normalised(knee - hip), shin = normalised(ankle - knee);
@@ -64,13 +35,14 @@ void leg(Rotations& world, const Figure& f, bool left) {
         return Rotation{across, cross(along, across), along};
     };
     const Vec along = normalised(toes - ankle), across = normalised(cross({0, 1, 0}, along));
-    const Vec rest = normalised(offsets()[left_foot24]);
+    const Vec rest = normalised(smpl_offsets()[left_foot24]);
     world[left ? left_ankle24 : right_ankle24] = frame(along, across) * inverse(frame(rest, {1, 0, 0}));
-    world[left ? left_foot24 : right_foot24] = world[left ? left_ankle24 : right_ankle24];
+    world[left ? left_foot24 : right_foot24] =
+        world[left ? left_ankle24 : right_ankle24] * toes_of(along, toes);
 }
 
 /// Arms of the rest pose lie along x. Elbows bend about y, so that hands come forward.
-void arm(Rotations& world, const Figure& f, const Vec& collar, bool left) {
+void arm(SmplTurns& world, const Figure& f, const Vec& collar, bool left) {
     const double side = left ? 1 : -1;
     const auto shoulder_joint = left ? left_shoulder24 : right_shoulder24;
     const Vec shoulder = f.at[left ? left_shoulder : right_shoulder],
@@ -78,7 +50,8 @@ void arm(Rotations& world, const Figure& f, const Vec& collar, bool left) {
               hand = f.at[left ? left_hand : right_hand], thumb = f.at[left ? left_thumb : right_thumb];
     const Rotation ribs = world[spine3];
     world[left ? left_collar : right_collar] =
-        shortest_turn(normalised(ribs * offsets()[shoulder_joint]), normalised(shoulder - collar)) * ribs;
+        shortest_turn(normalised(ribs * smpl_offsets()[shoulder_joint]), normalised(shoulder - collar)) *
+        ribs;
 
     const Vec upper = normalised(elbow - shoulder), lower = normalised(wrist - elbow);
     const Vec hinge = normalised(cross(upper, lower)) * -side;  // y of the bones
@@ -96,13 +69,19 @@ void arm(Rotations& world, const Figure& f, const Vec& collar, bool left) {
     const auto rolled = [&](double part) { return turned(straight.y, lower, part * roll * 180 / pi); };
     world[left ? left_elbow24 : right_elbow24] = bone(lower, rolled(0.5));
     world[left ? left_wrist24 : right_wrist24] = bone(fingers, rolled(1));
-    world[left ? left_hand24 : right_hand24] = world[left ? left_wrist24 : right_wrist24];
+
+    // Palms of the rest pose look down. SMPL's hands are without fingers: they bend by 0.4 of
+    // what the figure's fingers do.
+    const Vec tips = normalised(f.at[left ? left_tip : right_tip] - hand);
+    const double curl = 0.4 * std::atan2(length(cross(fingers, tips)), dot(fingers, tips)) * 180 / pi;
+    world[left ? left_hand24 : right_hand24] =
+        world[left ? left_wrist24 : right_wrist24] * about_z(-side * curl);
 }
 
 }  // namespace
 
 Body smpl_body() {
-    const auto& o = offsets();
+    const auto& o = smpl_offsets();
     Body body;
     body.height = 1.66;
     body.hip = o[left_hip24].x;
@@ -111,7 +90,7 @@ Body smpl_body() {
     body.thigh = length(o[left_knee24]);
     body.shin = length(o[left_ankle24]);
     body.foot = length(o[left_foot24]);
-    body.ankle = 0.075;
+    body.ankle = standing_ankle;
     body.ball = -o[left_foot24].y / body.ankle;
     // The figure's chest is where the collars and shoulders of the rest pose are.
     const double spine = o[spine1].y + o[spine2].y + o[spine3].y,
@@ -130,7 +109,7 @@ Body smpl_body() {
 }
 
 SmplPose smpl_pose(const Figure& f) {
-    Rotations world;
+    SmplTurns world;
     world[pelvis24] = f.hips;
     world[spine1] = slerp(f.hips, f.ribs, 0.33);
     world[spine2] = slerp(f.hips, f.ribs, 0.67);
@@ -140,18 +119,13 @@ SmplPose smpl_pose(const Figure& f) {
     for (const bool left : {true, false}) {
         leg(world, f, left);
         // The figure's shoulder against its chest, from a collar that is below and inside of it.
-        const Vec base = offsets()[left ? left_collar : right_collar] +
-                         offsets()[left ? left_shoulder24 : right_shoulder24];
+        const Vec base = smpl_offsets()[left ? left_collar : right_collar] +
+                         smpl_offsets()[left ? left_shoulder24 : right_shoulder24];
         const Vec at_rest = f.at[chest] + f.ribs * Vec{base.x, -0.02, 0};
-        const Vec collar = at_rest - f.ribs * offsets()[left ? left_shoulder24 : right_shoulder24];
+        const Vec collar = at_rest - f.ribs * smpl_offsets()[left ? left_shoulder24 : right_shoulder24];
         arm(world, f, collar, left);
     }
-    SmplPose pose;
-    pose.pelvis = f.at[pelvis];
-    for (std::size_t j = 0; j < smpl_joints; ++j)
-        pose.turned[j] =
-            j == 0 ? world[0] : inverse(world[static_cast<std::size_t>(smpl24_parents[j])]) * world[j];
-    return pose;
+    return smpl_pose(f.at[pelvis], world);
 }
 
 SmplPose mirrored(const SmplPose& pose) {
@@ -166,17 +140,38 @@ SmplPose mirrored(const SmplPose& pose) {
     return out;
 }
 
-std::array<Vec, smpl_joints> smpl_places(const SmplPose& pose) {
-    std::array<Vec, smpl_joints> at;
-    Rotations world;
-    at[0] = pose.pelvis;
-    world[0] = pose.turned[0];
+const std::array<Vec, smpl_joints>& smpl_offsets() {
+    static const auto all = [] {
+        const auto numbers = generic_skeleton().offsets;
+        std::array<Vec, smpl_joints> out;
+        for (std::size_t j = 0; j < smpl_joints; ++j)
+            out[j] = {numbers[3 * j], numbers[3 * j + 1], numbers[3 * j + 2]};
+        return out;
+    }();
+    return all;
+}
+
+SmplPlaced smpl_placed(const SmplPose& pose) {
+    SmplPlaced out;
+    out.at[0] = pose.pelvis;
+    out.world[0] = pose.turned[0];
     for (std::size_t j = 1; j < smpl_joints; ++j) {
         const auto parent = static_cast<std::size_t>(smpl24_parents[j]);
-        at[j] = at[parent] + world[parent] * offsets()[j];
-        world[j] = world[parent] * pose.turned[j];
+        out.at[j] = out.at[parent] + out.world[parent] * smpl_offsets()[j];
+        out.world[j] = out.world[parent] * pose.turned[j];
     }
-    return at;
+    return out;
+}
+
+SmplPose smpl_pose(const Vec& at, const SmplTurns& world) {
+    SmplPose pose{at, world};
+    for (std::size_t j = 1; j < smpl_joints; ++j)
+        pose.turned[j] = inverse(world[static_cast<std::size_t>(smpl24_parents[j])]) * world[j];
+    return pose;
+}
+
+std::array<Vec, smpl_joints> smpl_places(const SmplPose& pose) {
+    return smpl_placed(pose).at;
 }
 
 }  // namespace actformer::ingest::synth

@@ -37,7 +37,7 @@ Video video_at(std::size_t i, std::uint64_t seed) {
     video.view = video.side != 1 && random.chance(0.1) ? going_round
                                                        : static_cast<int>((turn * 3 + video.action) % views);
     auto motion = smpl_solo(exercises()[video.action].programme, {seed, 0x0E57D, i},
-                            static_cast<std::uint64_t>(video.subject));
+                            static_cast<std::uint64_t>(video.subject), of_video);
     // The camera of a view stands 45 degrees further round the person, who is seen turned the other way.
     double heading = 8 * random.normal();
     if (video.side != 1) heading -= 45.0 * video.view;

@@ -98,7 +98,7 @@ TEST(SmplPoses, BonesPointAsTheFiguresDo) {
 
 TEST(SmplPoses, PeopleStandOnTheFloorAndMoveWithoutJumps) {
     for (const auto& [name, programme] : solos()) {
-        const auto motion = smpl_solo(*programme, {7, 1}, 2);
+        const auto motion = smpl_solo(*programme, {7, 1}, 2, of_video);
         double lowest = 9;
         std::vector<double> feet;
         for (std::size_t f = 0; f < motion.size(); ++f) {
@@ -118,9 +118,70 @@ TEST(SmplPoses, PeopleStandOnTheFloorAndMoveWithoutJumps) {
     }
 }
 
+std::vector<SmplPose> still(const Programme& programme) {
+    const Casting casting{{5, 2}, {{smpl_body(), 3}}};
+    std::vector<SmplPose> out;
+    for (const auto& figures : play(programme, casting).frames) out.push_back(smpl_pose(figures[0]));
+    return out;
+}
+
+TEST(Life, TurnsEveryJointAndLeavesFeetHandsAndChestWhereTheyAre) {
+    for (const auto& [name, programme] : solos()) {
+        const auto before = still(*programme);
+        auto after = before;
+        enliven(after, of_video, Random{1, 2});
+        ASSERT_EQ(after.size(), before.size());
+        std::array<double, smpl_joints> most{};
+        for (std::size_t f = 0; f < before.size(); ++f) {
+            const auto a = smpl_placed(before[f]), b = smpl_placed(after[f]);
+            // Legs as good as straight may fall short by some millimetres. The spine's turns move the chest by some centimetres at
+            // most, and with it the hands of arms that are stretched out.
+            for (const std::size_t j : {7, 8, 10, 11})
+                EXPECT_LT(length(a.at[j] - b.at[j]), 0.006) << name << " joint " << j << " frame " << f;
+            for (const std::size_t j : {9, 15, 20, 21, 22, 23})
+                EXPECT_LT(length(a.at[j] - b.at[j]), 0.05) << name << " joint " << j << " frame " << f;
+            for (const std::size_t j : {7, 8, 9, 20, 21})
+                EXPECT_LT(apart(a.world[j], b.world[j]), 1e-9) << name << " joint " << j << " frame " << f;
+            for (std::size_t j = 0; j < smpl_joints; ++j) {
+                EXPECT_LT(apart(after[f].turned[j] * inverse(after[f].turned[j]), {}), 1e-9);
+                most[j] = std::max(most[j], apart(before[f].turned[j], after[f].turned[j]));
+                if (f > 0) {
+                    EXPECT_LT(length(b.at[j] - smpl_placed(after[f - 1]).at[j]), 0.42) << name << " " << j;
+                }
+            }
+        }
+        for (std::size_t j = 0; j < smpl_joints; ++j)
+            EXPECT_GT(most[j], radians(1)) << name << " joint " << j;
+    }
+}
+
+TEST(Life, OfNoTurnsIsThePerformanceItself) {
+    const auto before = still(everyday_programme("walk"));
+    auto after = before;
+    enliven(after, {}, Random{1});
+    for (std::size_t f = 0; f < before.size(); ++f)
+        for (std::size_t j = 0; j < smpl_joints; ++j)
+            EXPECT_LT(apart(before[f].turned[j], after[f].turned[j]), 1e-6) << f << " joint " << j;
+}
+
+TEST(SmplPoses, ToesStayOnTheFloorWhenTheHeelRises) {
+    const auto motion = still(everyday_programme("walk"));
+    double most = 0;
+    for (const auto& pose : motion) {
+        const auto placed = smpl_placed(pose);
+        for (const std::size_t toes : {10, 11}) {
+            const double heel = -std::asin(placed.world[toes - 3].z.y) * 180 / pi;
+            if (heel < 5 || placed.at[toes].y > 0.075 + smpl_offsets()[toes].y + 0.015) continue;
+            most = std::max(most, heel);
+            EXPECT_NEAR(placed.world[toes].z.y, 0, 0.02) << "a heel at " << heel << " degrees";
+        }
+    }
+    EXPECT_GT(most, 10) << "a heel rises";
+}
+
 TEST(SmplPoses, WhoStandsIsUpright) {
     for (const auto name : {"stand", "walk", "look", "communicate"}) {
-        const auto motion = smpl_solo(everyday_programme(name), {3, 1}, 4);
+        const auto motion = smpl_solo(everyday_programme(name), {3, 1}, 4, of_video);
         for (std::size_t f = 0; f < motion.size(); f += 5) {
             const auto at = smpl_places(motion[f]);
             EXPECT_LT(angle(at[12] - at[0], {0, 1, 0}), 14) << name << " frame " << f;
@@ -130,10 +191,10 @@ TEST(SmplPoses, WhoStandsIsUpright) {
 }
 
 TEST(SmplMotions, GoOnWhereTheyEnd) {
-    auto motion = smpl_solo(everyday_programme("walk"), {1, 1}, 4);
+    auto motion = smpl_solo(everyday_programme("walk"), {1, 1}, 4, of_video);
     place(motion, 70, {1, 0, -2});
     const auto before = motion.size();
-    const auto next = smpl_solo(everyday_programme("turn"), {1, 2}, 4);
+    const auto next = smpl_solo(everyday_programme("turn"), {1, 2}, 4, of_video);
     go_on(motion, next, 10);
     ASSERT_EQ(motion.size(), before + 10 + next.size());
     for (std::size_t f = before - 2; f < before + 14; ++f)
