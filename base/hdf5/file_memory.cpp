@@ -26,7 +26,10 @@ std::unique_ptr<char, Unmap> map(std::size_t bytes) {
 
 }  // namespace
 
-void FileMemory::serve(hid_t access) {
+void FileMemory::serve(hid_t access, std::size_t expected) {
+    expected_ = expected;
+    used_ = 0;
+    if (block_.get_deleter().bytes < expected) block_ = std::unique_ptr<char, Unmap>();
     H5Pset_fapl_core(access, page, false);
     H5FD_file_image_callbacks_t callbacks{};
     callbacks.udata = this;
@@ -36,7 +39,7 @@ void FileMemory::serve(hid_t access) {
         return static_cast<FileMemory*>(self)->resize(size);
     };
     callbacks.image_free = [](void*, H5FD_file_image_op_t, void* self) -> herr_t {
-        static_cast<FileMemory*>(self)->block_.reset();
+        static_cast<FileMemory*>(self)->used_ = 0;
         return 0;
     };
     H5Pset_file_image_callbacks(access, &callbacks);

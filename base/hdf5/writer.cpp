@@ -33,12 +33,19 @@ Packed packed(const std::vector<std::string>& values) {
 
 }  // namespace
 
+Writer::Writer(std::size_t expected_bytes) : memory_(std::make_unique<FileMemory>()) {
+    create_in(*memory_, expected_bytes);
+}
+
+Writer::Writer(FileMemory& memory, std::size_t expected_bytes) {
+    create_in(memory, expected_bytes);
+}
+
 // Beside the values there are their names and shapes.
-Writer::Writer(std::size_t expected_bytes)
-    : memory_(std::make_unique<FileMemory>(expected_bytes + expected_bytes / 64 + (std::size_t{1} << 20))) {
+void Writer::create_in(FileMemory& memory, std::size_t expected_bytes) {
     silence();
     const auto access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making a file in memory");
-    memory_->serve(access.get());
+    memory.serve(access.get(), expected_bytes + expected_bytes / 64 + (std::size_t{1} << 20));
     file_ = checked(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose,
                     "making a file in memory");
 }

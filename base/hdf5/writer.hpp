@@ -19,7 +19,10 @@ namespace actformer::hdf5 {
 /// A new file; the same calls give the same bytes.
 class Writer {
   public:
-    explicit Writer(std::size_t expected_bytes);         ///< in memory, for image()
+    /// In memory, for image(): in its own, or in `memory` that is used again, by one file at a time.
+    explicit Writer(std::size_t expected_bytes);
+    Writer(FileMemory& memory, std::size_t expected_bytes);
+
     explicit Writer(const std::filesystem::path& path);  ///< on disk, for finish()
 
     /// `rows_a_chunk` rows of the first axis share a checksummed chunk; 0 stores the array in one piece.
@@ -58,13 +61,14 @@ class Writer {
     bool finish();
 
   private:
+    void create_in(FileMemory& memory, std::size_t expected_bytes);
     void attribute_from(const std::string& name, const std::string& of, hid_t type, const Shape& shape,
                         const void* value);
     void note_array(const std::string& name, hid_t type, const Shape& shape, const std::string& checksum);
     Handle create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk);
     void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
                     hsize_t rows_a_chunk);
-    std::unique_ptr<FileMemory> memory_;  ///< of a file that is not on disk
+    std::unique_ptr<FileMemory> memory_;  ///< its own, of a file that is not on disk
     Contents contents_;
     Handle file_;  ///< behind the memory, which it needs to the end
 };

@@ -35,8 +35,9 @@ std::uint64_t ShardBuilder::bytes() const {
     return numbers * sizeof(float);
 }
 
-void ShardBuilder::image(const std::string& settings, const std::string& fingerprint,
-                         const std::function<void(std::string_view, const std::string&)>& use) const {
+void ShardBuilder::image(hdf5::FileMemory& memory, const std::string& settings,
+                         const std::string& fingerprint,
+                         const std::function<void(std::string_view, const std::string&)>& use) {
     std::vector<std::span<const float>> motion;
     std::vector<float> bones;
     for (const auto& piece : pieces_) {
@@ -44,13 +45,14 @@ void ShardBuilder::image(const std::string& settings, const std::string& fingerp
         bones.insert(bones.end(), piece.bone_length.begin(), piece.bone_length.end());
     }
     const hsize_t n = clips_.size(), p = header_->persons, joints = header_->topology.joints();
-    hdf5::Writer file(frames_ * header_->frame_values() * sizeof(float));
+    hdf5::Writer file(memory, frames_ * header_->frame_values() * sizeof(float));
     file.attribute("program", "actformer " ACTFORMER_VERSION);
     file.attribute("dataset", header_->name);
     file.attribute("settings", settings);
     file.attribute("source", fingerprint);
     file.write_pieces("motion", {frames_, p, header_->nodes(), header_->representation.numbers()}, motion,
                       frames_a_chunk);
+    pieces_.clear();
     file.write<std::uint64_t>("clip/offset", {n},
                               column<std::uint64_t>(clips_, [](auto& c) { return c.offset; }));
     file.write<std::uint32_t>("clip/length", {n},

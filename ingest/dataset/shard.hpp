@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "base/hdf5/file_memory.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "kernels/cleaning.hpp"
 
@@ -32,9 +33,10 @@ class ShardBuilder {
     std::uint64_t bytes() const;  ///< of motion, about
     bool empty() const { return clips_.empty(); }
 
-    /// Calls `use` with the file's bytes and the checksum of its contents. The file says what it was made from.
-    void image(const std::string& settings, const std::string& fingerprint,
-               const std::function<void(std::string_view bytes, const std::string& contents)>& use) const;
+    /// Makes the file in `memory` and calls `use` with its bytes and the checksum of its contents. The file says what it was made from.
+    /// The motions are let go as soon as they are in the file, so that the next shard can have their memory: only once, therefore.
+    void image(hdf5::FileMemory& memory, const std::string& settings, const std::string& fingerprint,
+               const std::function<void(std::string_view bytes, const std::string& contents)>& use);
 
   private:
     const DatasetHeader* header_;

@@ -289,11 +289,12 @@ class Ingest {
     /// Writes a dataset's shard while the next one is made. It is marked with the fingerprint of all whole groups before its end.
     void send(std::size_t dataset, const Workplace& workplace, Worker& writer) {
         auto shard = std::exchange(shards_[dataset], ShardBuilder(format_.datasets()[dataset]));
-        writer.add([this, &workplace, dataset, shard = std::move(shard), fingerprint = fingerprint_] {
-            const auto start = Clock::now();
-            written_.emplace_back(dataset, write(workplace, dataset, shard, fingerprint));
-            summary_.seconds.write += seconds_since(start);
-        });
+        writer.add(
+            [this, &workplace, dataset, shard = std::move(shard), fingerprint = fingerprint_]() mutable {
+                const auto start = Clock::now();
+                written_.emplace_back(dataset, write(workplace, dataset, shard, fingerprint));
+                summary_.seconds.write += seconds_since(start);
+            });
     }
 
     /// Ends a tranche: its shards go to disk and it is noted down, while the next one is read.
@@ -307,12 +308,12 @@ class Ingest {
         });
     }
 
-    ShardEntry write(const Workplace& workplace, std::size_t dataset, const ShardBuilder& shard,
+    ShardEntry write(const Workplace& workplace, std::size_t dataset, ShardBuilder& shard,
                      const std::string& fingerprint) {
         const auto file = folder_of(dataset) / shard_name(shard_count_[dataset]++);
         ShardEntry entry{file.string(), {}, 0, shard.clips(), shard.frames()};
         fs::create_directories((workplace.data() / file).parent_path());
-        shard.image(format_.settings(), fingerprint,
+        shard.image(shard_memory_, format_.settings(), fingerprint,
                     [&](std::string_view bytes, const std::string& contents) {
                         write_whole(workplace.data() / file, bytes);
                         entry.checksum = contents;
@@ -389,6 +390,7 @@ class Ingest {
     std::vector<ShardBuilder> shards_;                         ///< (datasets) in the making
     std::vector<std::size_t> shard_count_;                     ///< (datasets) shards written so far
     std::vector<std::pair<std::size_t, ShardEntry>> written_;  ///< of the tranche in hand; the writer's own
+    hdf5::FileMemory shard_memory_;  ///< of the shard that is written; the writer's own
     Tranche tranche_;
     std::string group_files_;  ///< names and checksums of the group in hand
     std::string fingerprint_;

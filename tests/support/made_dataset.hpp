@@ -40,7 +40,8 @@ inline void write_dataset(const std::filesystem::path& folder, const ingest::Dat
     }
     ingest::ShardEntry entry{ingest::shard_name(0), {}, 0, shard.clips(), shard.frames()};
     std::filesystem::create_directories(folder);
-    shard.image("made by a test", "none", [&](std::string_view bytes, const std::string& contents) {
+    hdf5::FileMemory memory;
+    shard.image(memory, "made by a test", "none", [&](std::string_view bytes, const std::string& contents) {
         write_whole(folder / entry.file, bytes);
         entry.checksum = contents;
         entry.bytes = bytes.size();
