@@ -22,6 +22,7 @@
 
 #include "base/files/mapped_file.hpp"
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/formats/text_checksum.hpp"
 #include "kernels/cleaning.hpp"
 
 namespace actformer::ingest {
@@ -35,6 +36,7 @@ struct RawText {
     std::uint64_t index = 0;    ///< of the file in the source's order, which depends on names alone
     bool on_disk = false;       ///< `path` is a file that a library can open
     const MappedFile* mapped = nullptr;  ///< what the text of a large file lies in
+    TextChecksum* checksum = nullptr;    ///< takes in what is released
 
     /// Whether the path ends in `extension`, as in ".pkl", in any case.
     bool ends_in(std::string_view extension) const {
@@ -46,6 +48,7 @@ struct RawText {
 
     /// The text before `here` has been read for good: memory stays flat over a large file.
     void release(const char* here) const {
+        if (checksum) checksum->take_until(here);
         if (mapped) mapped->release(here);
     }
 

@@ -36,16 +36,13 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Of the text, piece by piece, so that a large file does not come into memory whole.
-std::string checksum_of(const RawText& raw) {
-    constexpr std::size_t piece = std::size_t{16} << 20;
-    Checksum sum;
+/// What the format has not released, piece by piece, so that a large file does not come into memory whole.
+void release_rest(const RawText& raw) {
+    constexpr std::size_t piece = std::size_t{8} << 20;
     for (std::size_t from = 0; from < raw.text.size(); from += piece) {
         const auto part = raw.text.substr(from, piece);
-        sum.add(part);
         raw.release(part.data() + part.size());
     }
-    return sum.hex();
 }
 
 class Ingest {
@@ -195,22 +192,33 @@ class Ingest {
         writer.finish();
     }
 
-    void parse(Item& item, ClipSink& sink, TextMemory& memory) const {
-        const auto& file = item.file;
-        if (auto refused = format_.refuse(file.raw())) return sink.take(std::move(*refused));
-        const auto start = Clock::now();
+    /// An Error that `work` throws becomes a rejection of the file.
+    template <typename Work>
+    static void or_reject(const RawFile& file, ClipSink& sink, Work work) {
         try {
-            const auto raw = memory.read(file);
-            item.file.size = raw.text.size();
-            item.read_seconds = seconds_since(start);
-            item.checksum = checksum_of(raw);
-            format_.read(raw, sink);
-            item.parse_seconds = seconds_since(start) - item.read_seconds;
+            work();
         } catch (const Error& e) {
             std::string why = e.what();
             if (why.starts_with(file.path + ": ")) why.erase(0, file.path.size() + 2);
             sink.take(Rejection{Rejection::Kind::broken, why});
         }
+    }
+
+    void parse(Item& item, ClipSink& sink, TextMemory& memory) const {
+        const auto& file = item.file;
+        if (auto refused = format_.refuse(file.raw())) return sink.take(std::move(*refused));
+        const auto start = Clock::now();
+        or_reject(file, sink, [&] {
+            auto raw = memory.read(file);
+            item.file.size = raw.text.size();
+            item.read_seconds = seconds_since(start);
+            TextChecksum checksum(raw.text);
+            raw.checksum = &checksum;
+            or_reject(file, sink, [&] { format_.read(raw, sink); });
+            release_rest(raw);
+            item.checksum = checksum.hex();
+            item.parse_seconds = seconds_since(start) - item.read_seconds;
+        });
         item.file.bytes = {};
         item.file.unpacked.reset();
     }

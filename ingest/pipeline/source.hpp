@@ -39,7 +39,7 @@ struct RawFile {
 
     /// As formats see it, with `text` or by its name alone.
     RawText raw(std::string_view text = {}, const MappedFile* mapped = nullptr) const {
-        return {path, stem, text, inside, index, !in_memory && !unpacked, mapped};
+        return {path, stem, text, inside, index, !in_memory && !unpacked, mapped, nullptr};
     }
 };
 
