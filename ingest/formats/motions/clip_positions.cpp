@@ -10,8 +10,10 @@ namespace actformer::ingest {
 namespace {
 
 constexpr double farthest = 1e6;  // metres: float32 stays exact enough far beyond any room
+constexpr std::uint64_t bodies_at_once =
+    16;  // of 25 joints: 10 kB, which the nearest cache holds a few times
 
-/// One clip of an array, body by body.
+/// One clip of an array, some bodies at a time. A body is a person in a frame; the persons of a frame follow one another.
 class Reading {
   public:
     Reading(const JointArray& array, std::uint64_t clip, const PositionsRequest& request)
@@ -19,11 +21,12 @@ class Reading {
           clip_(clip),
           request_(request),
           joints_(array.joints()),
+          body_(joints_ * 3),
           first_(std::min(request.start, array.frames())),
           frames_(std::min(request.end.value_or(array.frames()), array.frames()) - first_),
-          raw_(joints_ * 3),
-          pose_(joints_ * 3),
-          body_(joints_ * 3) {}
+          raw_(bodies_at_once * body_),
+          pose_(bodies_at_once * body_),
+          placed_(bodies_at_once * body_) {}
 
     std::variant<ClipPositions, Rejection> read() {
         if (frames_ == 0)
@@ -37,29 +40,55 @@ class Reading {
     static Rejection broken(std::string reason) { return {Rejection::Kind::broken, std::move(reason)}; }
     static Rejection dropped(std::string reason) { return {Rejection::Kind::dropped, std::move(reason)}; }
 
-    /// pose_ of a body, in metres and upright. False where a number is missing or all are zero.
-    bool load(std::uint64_t frame, std::uint64_t person) {
-        array_.pose(clip_, first_ + frame, person, raw_.data());
-        int any = 0, no_number = 0;  // without branches or sums in order, so that it runs in vectors
-        for (const double x : raw_) {
-            any |= x != 0;
-            no_number |= !(x - x == 0);
+    /// pose_ of bodies of the array, in metres and upright.
+    void load(std::uint64_t body, std::uint64_t count) {
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const auto frame = (body + i) / array_.persons(), person = (body + i) % array_.persons();
+            array_.pose(clip_, first_ + frame, person, &raw_[i * body_]);
         }
-        for (std::size_t d = 0; d < 3; ++d) {
-            const int axis = request_.axes[d];
-            const double factor = axis < 0 ? -request_.scale : request_.scale;
-            const double* from = raw_.data() + std::abs(axis) - 1;
-            for (std::size_t j = 0; j < joints_; ++j) pose_[3 * j + d] = factor * from[3 * j];
+        turn(count * body_);
+    }
+
+    /// False where a number of pose_ is missing or beyond reach, or all of a body are zero.
+    bool all_seen(std::uint64_t count) const {
+        std::int64_t beyond = 0;  // as wide as the numbers and without branches: it runs in vectors
+        for (std::size_t i = 0; i < count * body_; ++i) beyond |= !(std::abs(pose_[i]) < farthest);  // NaN is
+        if (beyond) return false;
+        for (std::uint64_t i = 0; i < count; ++i)
+            if (all_zero(&pose_[i * body_])) return false;
+        return true;
+    }
+
+    bool all_zero(const double* body) const {
+        return std::all_of(body, body + body_, [](double x) { return x == 0; });
+    }
+
+    /// So many numbers of pose_ from raw_. All three axes in one loop, whose stores then follow one another.
+    void turn(std::size_t numbers) {
+        const auto factor = [this](std::size_t d) {
+            return request_.axes[d] < 0 ? -request_.scale : request_.scale;
+        };
+        const auto along = [this](std::size_t d) { return raw_.data() + std::abs(request_.axes[d]) - 1; };
+        const double by_x = factor(0), by_y = factor(1), by_z = factor(2);
+        const double *x = along(0), *y = along(1), *z = along(2);
+        double* to = pose_.data();
+        for (std::size_t i = 0; i < numbers; i += 3) {
+            to[i] = by_x * x[i];
+            to[i + 1] = by_y * y[i];
+            to[i + 2] = by_z * z[i];
         }
-        return any && !no_number;
     }
 
     /// Straight from the array; false, and nothing done, where not every body is whole in every frame.
     bool read_all_seen() {
         begin();
-        for (std::uint64_t t = 0; t < frames_; ++t)
-            for (std::uint64_t p = 0; p < request_.persons; ++p)
-                if (!load(t, p) || !within_reach(pose_.data()) || !add(pose_.data(), p)) return false;
+        const auto bodies = frames_ * request_.persons;
+        for (std::uint64_t body = 0; body < bodies; body += bodies_at_once) {
+            const auto count = std::min(bodies_at_once, bodies - body);
+            load(body, count);
+            if (!all_seen(count)) return false;
+            add(pose_.data(), count);
+        }
         finish();
         return true;
     }
@@ -70,9 +99,9 @@ class Reading {
         std::vector<bool> seen(frames_ * persons, false);  // any of the body
         for (std::uint64_t t = 0; t < frames_; ++t)
             for (std::uint64_t p = 0; p < persons; ++p) {
-                load(t, p);
-                double* body = &all[(t * persons + p) * joints_ * 3];
-                std::copy(pose_.begin(), pose_.end(), body);
+                load(t * persons + p, 1);
+                double* body = &all[(t * persons + p) * body_];
+                std::copy_n(pose_.begin(), body_, body);
                 if (const auto fault = check(body, t); !fault.empty()) return broken(fault);
                 seen[t * persons + p] = body_seen(body);
             }
@@ -85,16 +114,10 @@ class Reading {
             if (const auto fault = fill(all, persons, p); !fault.empty()) return broken(fault);
         begin();
         for (std::uint64_t t = 0; t < frames_; ++t)
-            for (std::size_t i = 0; i < kept.size(); ++i) add(&all[(t * persons + kept[i]) * joints_ * 3], i);
+            for (std::size_t i = 0; i < kept.size(); ++i) add(&all[(t * persons + kept[i]) * body_], 1);
         finish();
         out_.filled = true;
         return std::move(out_);
-    }
-
-    bool within_reach(const double* body) const {
-        int beyond = 0;
-        for (std::size_t i = 0; i < joints_ * 3; ++i) beyond |= !(std::abs(body[i]) < farthest);
-        return !beyond;
     }
 
     std::string check(double* body, std::uint64_t frame) const {
@@ -103,8 +126,7 @@ class Reading {
                 if (const double x = body[3 * j + d]; !std::isnan(x) && !(std::abs(x) < farthest))
                     return fmt::format("frame {}: {} is at {:.6g} m; see --scale", first_ + frame,
                                        in_quotes(request_.topology->names[j]), x);
-        if (std::all_of(body, body + joints_ * 3, [](double x) { return x == 0; }))
-            std::fill(body, body + joints_ * 3, std::nan(""));
+        if (all_zero(body)) std::fill(body, body + body_, std::nan(""));
         return {};
     }
 
@@ -173,27 +195,40 @@ class Reading {
         out_.values.reserve(frames_ * request_.persons * joints_ *
                             3);  // zeros there would cost as much as reading
         lengths_.assign(request_.persons * joints_, 0);
+        added_ = 0;
     }
 
-    /// The next body, of person `p` of those kept.
-    bool add(const double* pose, std::size_t p) {
-        if (out_.values.empty()) std::copy(pose, pose + 3, origin_.begin());
-        const auto& parents = request_.topology->parents;
-        double* length = &lengths_[p * joints_];
-        float* to = body_.data();
-        for (std::size_t j = 0; j < joints_; ++j, to += 3) {
-            const double* joint = pose + 3 * j;
-            const double* parent = parents[j] < 0 ? origin_.data() : pose + 3 * parents[j];
-            if (request_.limbs) {
-                for (std::size_t d = 0; d < 3; ++d) to[d] = static_cast<float>(joint[d] - parent[d]);
-                continue;
-            }
-            for (std::size_t d = 0; d < 3; ++d) to[d] = static_cast<float>(joint[d] - origin_[d]);
-            if (parents[j] >= 0)
-                length[j] += std::hypot(joint[0] - parent[0], joint[1] - parent[1], joint[2] - parent[2]);
+    /// The next bodies, persons of those kept.
+    void add(const double* poses, std::uint64_t count) {
+        if (out_.values.empty()) std::copy(poses, poses + 3, origin_.begin());
+        for (std::uint64_t i = 0; i < count; ++i) {
+            place(poses + i * body_, &placed_[i * body_]);
+            if (!request_.limbs) add_lengths(poses + i * body_);
         }
-        out_.values.insert(out_.values.end(), body_.begin(), body_.end());
-        return true;
+        out_.values.insert(out_.values.end(), placed_.begin(),
+                           placed_.begin() + static_cast<std::ptrdiff_t>(count * body_));
+    }
+
+    /// Joints from their parents or from the origin, joint 0 being the root.
+    void place(const double* pose, float* to) const {
+        const int* parents = request_.topology->parents.data();
+        put(pose, origin_.data(), to);
+        for (std::size_t j = 1; j < joints_; ++j)
+            put(pose + 3 * j, request_.limbs ? pose + std::ptrdiff_t{3} * parents[j] : origin_.data(),
+                to + 3 * j);
+    }
+
+    static void put(const double* joint, const double* from, float* to) {
+        for (std::size_t d = 0; d < 3; ++d) to[d] = static_cast<float>(joint[d] - from[d]);
+    }
+
+    void add_lengths(const double* pose) {
+        double* lengths = &lengths_[added_++ % request_.persons * joints_];
+        for (std::size_t j = 1; j < joints_; ++j) {
+            const double *joint = pose + 3 * j,
+                         *parent = pose + std::ptrdiff_t{3} * request_.topology->parents[j];
+            lengths[j] += std::hypot(joint[0] - parent[0], joint[1] - parent[1], joint[2] - parent[2]);
+        }
     }
 
     void finish() {
@@ -205,12 +240,13 @@ class Reading {
     const JointArray& array_;
     std::uint64_t clip_;
     const PositionsRequest& request_;
-    std::size_t joints_;
+    std::size_t joints_, body_;  ///< of a body: its joints and its numbers
     std::uint64_t first_, frames_;
-    std::vector<double> raw_, pose_;
+    std::vector<double> raw_, pose_;  ///< (bodies at once, joints, 3)
+    std::vector<float> placed_;       ///< as those
     std::array<double, 3> origin_{};
-    std::vector<double> lengths_;
-    std::vector<float> body_;  ///< (joints, 3)
+    std::vector<double> lengths_;  ///< (persons, joints)
+    std::uint64_t added_ = 0;      ///< bodies whose lengths are among these
     ClipPositions out_;
 };
 
