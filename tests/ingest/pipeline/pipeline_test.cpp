@@ -31,7 +31,8 @@ struct LineClip : RawClip {
     float x = 0;
 };
 
-/// A line "NAME CLASS X" is a clip of two frames of two joints; "!WHY" is a bad one, "?NAME CLASS X" one in doubt; "stop" throws.
+/// A line "NAME CLASS X" is a clip of two frames of two joints; "!WHY" is a bad one, "?NAME CLASS X" one in doubt; "stop" throws,
+/// and after "broken" the file cannot be read.
 class LineFormat : public Format {
   public:
     explicit LineFormat(Survey how = Survey::texts) : how_(how) {}
@@ -65,6 +66,8 @@ class LineFormat : public Format {
         for (std::string line; std::getline(lines, line);) {
             ++number;
             if (line == "stop" && stops) throw std::runtime_error("stopped");
+            if (line == "broken") throw Error("{}: line {}: broken", raw.path, number);
+            if (lines) raw.release(raw.text.data() + lines.tellg());
             if (line.starts_with("!")) {
                 sink.take(
                     Rejection{Rejection::Kind::broken, fmt::format("line {}: {}", number, line.substr(1))});
@@ -175,6 +178,25 @@ TEST_F(PipelineOnDevice, TakesManyClipsOfAFileInOrder) {
     EXPECT_TRUE(again.was_complete);
     EXPECT_EQ(again.remarks, summary.remarks);
     EXPECT_EQ(again.doubts[0].clips, 2U);
+}
+
+TEST_F(PipelineOnDevice, IsMarkedWithTheChecksumsOfWholeFiles) {
+    const std::string good = "x 1 2\ny 2 3\n", broken = "z 1 2\nbroken\nw 2 3\n", refused = "v 1 2\n";
+    write_file(dir / "raw/broken.lines", broken);
+    write_file(dir / "raw/good.lines", good);
+    write_file(dir / "raw/refused.lines", refused);
+    LineFormat format;
+    const auto summary = run(format);
+    const auto line = [](const std::string& name, const std::string& text) {
+        return fmt::format("{} {} {}\n", name, text.size(), checksum(text));
+    };
+    const auto files =
+        line("broken", broken) + line("good", good) + fmt::format("refused {} \n", refused.size());
+    EXPECT_NE(read_file(dir / "out/dataset.json").find(checksum(files)), std::string::npos) << files;
+    EXPECT_EQ(summary.text_bytes, good.size() + broken.size());
+    EXPECT_EQ(read_file(dir / "out/rejected.csv"),
+              fmt::format("file,kind,reason\n{},broken,line 2: broken\n{},dropped,not this one\n",
+                          (dir / "raw/broken.lines").string(), (dir / "raw/refused.lines").string()));
 }
 
 TEST_F(PipelineOnDevice, HoldsFewClipsOfALargeFileAtOnce) {
