@@ -68,6 +68,7 @@ DataOrigin origin_from_json(const Json& json, const std::string& where) {
     const auto said = json.value("origin", Json::object());
     if (said.contains("data")) origin.kind = origin_named(said.at("data").get<std::string>(), where);
     origin.skeleton = said.value("skeleton", "");
+    origin.part = said.value("part", "");
     return origin;
 }
 
@@ -106,6 +107,7 @@ Json to_json(const DataOrigin& origin) {
     Json said = Json::object();
     if (origin.kind) said["data"] = name_of(*origin.kind);
     if (!origin.skeleton.empty()) said["skeleton"] = origin.skeleton;
+    if (!origin.part.empty()) said["part"] = origin.part;
     return said;
 }
 

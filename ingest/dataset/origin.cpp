@@ -1,5 +1,9 @@
 #include "ingest/dataset/origin.hpp"
 
+#include <fmt/format.h>
+
+#include <vector>
+
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/printable.hpp"
@@ -43,10 +47,12 @@ void write_origin(const std::filesystem::path& folder, DataOrigin::Kind kind) {
 }
 
 std::string DataOrigin::text() const {
-    std::string text(kind ? name_of(*kind) : "");
-    if (skeleton.empty()) return text;
-    if (!text.empty()) text += ", ";
-    return text + (skeleton == "generic" ? "generic skeleton" : "skeleton of " + skeleton);
+    std::vector<std::string> said;
+    if (kind) said.emplace_back(name_of(*kind));
+    if (!skeleton.empty())
+        said.push_back(skeleton == "generic" ? "generic skeleton" : "skeleton of " + skeleton);
+    if (!part.empty()) said.push_back(part);
+    return fmt::format("{}", fmt::join(said, ", "));
 }
 
 }  // namespace actformer::ingest

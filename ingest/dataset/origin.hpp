@@ -19,10 +19,11 @@ struct DataOrigin {
     std::optional<Kind> kind;  ///< none: not told, as in datasets of earlier versions
     std::string
         skeleton;  ///< that rotations turn: "generic", or the name of the model file; empty: the motion's own
+    std::string part{};  ///< what it has of the published classes, as in "20 categories"; empty: all of them
 
     bool operator==(const DataOrigin&) const = default;
 
-    /// For captions: "stand-in, generic skeleton", "recorded, skeleton of SMPL_NEUTRAL.pkl"; empty where nothing is told.
+    /// For captions: "stand-in, generic skeleton", "recorded, skeleton of SMPL_NEUTRAL.pkl, 20 categories"; empty where nothing is told.
     std::string text() const;
 };
 

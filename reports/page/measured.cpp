@@ -89,6 +89,7 @@ ingest::DataOrigin origin_in(const std::vector<MeasuredRun>& runs) {
         for (const auto kind : ingest::DataOrigin::kinds)
             if (loose::text(said, "data") == ingest::name_of(kind)) out.kind = kind;
         if (const auto skeleton = loose::text(said, "skeleton"); !skeleton.empty()) out.skeleton = skeleton;
+        if (const auto part = loose::text(said, "part"); !part.empty()) out.part = part;
     }
     return out;
 }

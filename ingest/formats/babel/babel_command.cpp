@@ -5,8 +5,9 @@ namespace actformer::ingest {
 std::vector<Option> BabelCommand::list() {
     std::vector<Option> options{
         Option("--categories",
-               "Classes: BABEL's first 120 or 60, a file with a name a line, or names with commas between",
-               "120|60|FILE|NAMES", &babel.categories)
+               "Classes: how many of BABEL's most frequent, a file with a name a line, or names with commas "
+               "between",
+               "120|60|N|FILE|NAMES", &babel.categories)
             .with_default(),
         Option("--fps", "Frames a second to resample to, by slerp", "F", &babel.fps).with_default(),
         Option("--published",

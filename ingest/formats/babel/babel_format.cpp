@@ -88,6 +88,9 @@ BabelFormat::BabelFormat(BabelOptions options)
     auto header = target_.header(options_.dataset);
     header.fps = options_.fps;
     header.classes = categories_called(options_.categories);
+    if (header.classes.size() != babel_categories().size())
+        header.origin.part = fmt::format("{} {}", header.classes.size(),
+                                         header.classes.size() == 1 ? "category" : "categories");
     header.fields = {"split", "set", "subject", "sequence", "proc_label"};
     for (std::uint32_t i = 0; i < header.classes.size(); ++i) labels_.emplace(header.classes[i], i);
     datasets_.push_back(std::move(header));

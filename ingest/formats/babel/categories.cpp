@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <filesystem>
 
 #include "base/error.hpp"
@@ -155,17 +156,24 @@ std::span<const std::string_view> babel_categories() {
 }
 
 std::vector<std::string> categories_called(const std::string& said) {
-    for (const std::size_t count : {std::size_t{60}, names.size()})
-        if (said == std::to_string(count))
-            return {names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count)};
+    if (!said.empty() && said.find_first_not_of("0123456789") == std::string::npos) {
+        std::size_t count = 0;
+        std::from_chars(said.data(), said.data() + said.size(), count);  // 0 where it is too large
+        if (count < 1 || count > names.size())
+            throw Error("--categories {}: give 1 to {}, BABEL's most frequent ones, or names", said,
+                        names.size());
+        return {names.begin(), names.begin() + static_cast<std::ptrdiff_t>(count)};
+    }
     std::error_code error;
     const bool file = std::filesystem::is_regular_file(said, error);
     std::vector<char> scratch;
     const auto out = file ? pieces(read_text(said, scratch, largest_file), "\n") : pieces(said, ",");
     const auto where = file ? said : "--categories";
     if (out.empty())
-        throw Error("{}: no category named; give 120, 60, names with commas between, or a file of names",
-                    where);
+        throw Error(
+            "{}: no category named; give 120, 60 or another number, names with commas between, or a file of "
+            "names",
+            where);
     for (auto one = out.begin(); one != out.end(); ++one)
         if (std::find(out.begin(), one, *one) != one) throw Error("{}: '{}' comes twice", where, *one);
     return out;

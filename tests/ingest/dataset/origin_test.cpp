@@ -29,13 +29,16 @@ TEST(DataOrigin, IsSaidInCaptions) {
     EXPECT_EQ((DataOrigin{stand_in, "generic"}.text()), "stand-in, generic skeleton");
     EXPECT_EQ((DataOrigin{synthetic, "SMPL_NEUTRAL.pkl"}.text()), "synthetic, skeleton of SMPL_NEUTRAL.pkl");
     EXPECT_EQ((DataOrigin{{}, "generic"}.text()), "generic skeleton");
+    EXPECT_EQ((DataOrigin{stand_in, "generic", "20 categories"}.text()),
+              "stand-in, generic skeleton, 20 categories");
 }
 
 TEST(DataOrigin, StandsInDatasetJsonWhereItIsTold) {
     const TempDir dir;
     using enum DataOrigin::Kind;
-    for (const auto& origin : {DataOrigin{}, DataOrigin{recorded, ""}, DataOrigin{stand_in, "generic"},
-                               DataOrigin{synthetic, "a.pkl"}, DataOrigin{{}, "generic"}}) {
+    for (const auto& origin :
+         {DataOrigin{}, DataOrigin{recorded, ""}, DataOrigin{stand_in, "generic"},
+          DataOrigin{synthetic, "a.pkl"}, DataOrigin{{}, "generic"}, DataOrigin{{}, "", "20 categories"}}) {
         const auto text = to_text(file_of(origin));
         EXPECT_EQ(text.find("\"origin\"") == std::string::npos, origin == DataOrigin{});
         write_file(dir / "dataset.json", text);

@@ -231,7 +231,8 @@ TEST_F(Report, NamesAreTextInEveryForm) {
 
 TEST_F(Report, SaysWhatTheMotionsAreWhereverAFigureIs) {
     auto stand_in = scores({0.5}, {4}), recorded = scores({0.6}, {3});
-    stand_in["provenance"]["real"]["origin"] = {{"data", "stand-in"}, {"skeleton", "generic"}};
+    stand_in["provenance"]["real"]["origin"] = {
+        {"data", "stand-in"}, {"skeleton", "generic"}, {"part", "20 categories"}};
     recorded["provenance"]["real"]["origin"] = {{"data", "recorded"}};
     add("babel", "table1/ActFormer/BABEL", {stand_in})["data"] = {{"path", "babel"}};
     add("ntu", "table1/ActFormer/NTU-1P", {recorded})["data"] = {{"path", "ntu-1p"}};
@@ -242,15 +243,17 @@ TEST_F(Report, SaysWhatTheMotionsAreWhereverAFigureIs) {
     const auto has = [](const std::string& text, const std::string& part) {
         return text.find(part) != std::string::npos;
     };
-    EXPECT_TRUE(has(html, ">BABEL <small class=\"origin\">stand-in, generic skeleton</small></th>")) << html;
+    EXPECT_TRUE(
+        has(html, ">BABEL <small class=\"origin\">stand-in, generic skeleton, 20 categories</small></th>"))
+        << html;
     EXPECT_TRUE(has(html, ">NTU-1P <small class=\"origin\">recorded</small></th>"));
     EXPECT_TRUE(has(html, ">NTU-13</th>")) << "nothing was measured there";
-    EXPECT_TRUE(has(html, "<b>BABEL</b> (stand-in, generic skeleton), measured on"));
+    EXPECT_TRUE(has(html, "<b>BABEL</b> (stand-in, generic skeleton, 20 categories), measured on"));
     EXPECT_TRUE(has(note, "cannot be held against the paper's"));
     EXPECT_TRUE(has(note, "generic skeleton"));
-    EXPECT_TRUE(has(csv, ",\"stand-in, generic skeleton\"\n"));
-    EXPECT_TRUE(has(latex, "{BABEL (stand-in, generic skeleton)}"));
-    EXPECT_TRUE(has(latex, ". BABEL: stand-in, generic skeleton"));
+    EXPECT_TRUE(has(csv, ",\"stand-in, generic skeleton, 20 categories\"\n"));
+    EXPECT_TRUE(has(latex, "{BABEL (stand-in, generic skeleton, 20 categories)}"));
+    EXPECT_TRUE(has(latex, ". BABEL: stand-in, generic skeleton, 20 categories"));
     EXPECT_EQ(to_json(tables, {})["tables"][0]["rows"][3]["groups"][2]["origin"], "recorded");
 }
 

@@ -117,13 +117,14 @@ TEST(BabelCategories, AreThoseOfBabelOrAnyNamed) {
     EXPECT_EQ(categories_called("120").size(), 120U);
     EXPECT_EQ(categories_called("60").size(), 60U);
     EXPECT_EQ(categories_called("60").back(), categories_called("120")[59]);
+    EXPECT_EQ(categories_called("20").back(), categories_called("120")[19]);
     EXPECT_EQ(categories_called("120")[0], "walk");
     EXPECT_EQ(categories_called("120")[119], "sudden movement");
     EXPECT_EQ(categories_called("walk, jump rope"), (std::vector<std::string>{"walk", "jump rope"}));
     const TempDir dir;
     write_file(dir / "names", "duck\r\n\n walk \n");
     EXPECT_EQ(categories_called((dir / "names").string()), (std::vector<std::string>{"duck", "walk"}));
-    for (const std::string wrong : {"", " , ", "walk,walk"})
+    for (const std::string wrong : {"", " , ", "walk,walk", "0", "121"})
         EXPECT_THROW(categories_called(wrong), Error) << wrong;
 }
 
@@ -141,7 +142,7 @@ TEST_F(BabelOnDevice, CutsClipsOutOfARecording) {
     EXPECT_TRUE(summary.left_out.empty());
     EXPECT_TRUE(summary.doubts.empty());
     const Dataset dataset(dir / "out");
-    EXPECT_EQ(dataset.header().origin.text(), "recorded, generic skeleton");
+    EXPECT_EQ(dataset.header().origin.text(), "recorded, generic skeleton, 3 categories");
     EXPECT_EQ(dataset.header().classes, (std::vector<std::string>{"walk", "run", "jump"}));
     std::map<std::string, std::size_t> clips;
     for (std::size_t i = 0; i < dataset.clips().size(); ++i) clips[dataset.clips()[i].name] = i;
@@ -184,7 +185,7 @@ TEST_F(BabelOnDevice, ABodyModelGivesTheRestSkeleton) {
     options.rotational.body = (dir / "large.npz").string();
     run();
     const Dataset dataset(dir / "out");
-    EXPECT_EQ(dataset.header().origin.text(), "recorded, skeleton of large.npz");
+    EXPECT_EQ(dataset.header().origin.text(), "recorded, skeleton of large.npz, 1 category");
     const auto generic = generic_skeleton().rest(), got = dataset.header().rest;
     ASSERT_EQ(got.size(), generic.size());
     for (std::size_t i = 0; i < got.size(); ++i) EXPECT_NEAR(got[i], 1.5F * generic[i], 1e-6);
