@@ -5,16 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "ingest/dataset/quaternion.hpp"
 #include "ingest/dataset/topology.hpp"
 
 namespace actformer::ingest {
 
 using Point = std::array<double, 3>;
-
-/// A rotation, of length 1.
-struct Quaternion {
-    double w = 1, x = 0, y = 0, z = 0;
-};
 
 /// One person. With R and X the rotation and the place of a joint in the world, p its parent and t a frame:
 /// R_j(t) = R_p(t) rotation_j(t), X_j(t) = X_p(t) + R_p(t) position_j(t).

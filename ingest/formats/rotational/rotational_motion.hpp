@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "ingest/formats/rotational/quaternion.hpp"
+#include "ingest/dataset/quaternion.hpp"
 #include "ingest/smpl/smpl24.hpp"
 
 namespace actformer::ingest {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/numpy/rows.hpp"
-#include "ingest/formats/rotational/quaternion.hpp"
+#include "ingest/dataset/quaternion.hpp"
 
 namespace actformer::ingest::uestc {
 
