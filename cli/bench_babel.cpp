@@ -1,7 +1,6 @@
 #include "cli/bench_babel.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <cstdio>
@@ -13,6 +12,7 @@
 #include "base/files/file.hpp"
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
+#include "base/process/usage.hpp"
 #include "base/threads/parallel.hpp"
 #include "cli/format.hpp"
 #include "ingest/export/npz/npz_writer.hpp"
@@ -130,15 +130,6 @@ struct Took {
     double seconds = 0, busy = 0;
 };
 
-double busy_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 /// Of the peer, by its own clock, which leaves out Python's start.
 std::optional<Took> run_peer(const BabelBench& bench, const fs::path& folder, std::uint64_t clips) {
     if (!fs::exists(bench.peer)) return {};
@@ -157,12 +148,6 @@ std::optional<Took> run_peer(const BabelBench& bench, const fs::path& folder, st
     return took;
 }
 
-double peak_memory_mib() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
 double motion_hours(std::uint64_t files) {
     return static_cast<double>(files) * seconds_a_file / 3600;
 }
@@ -177,11 +162,11 @@ void bench_babel(const BabelBench& bench) {
     ingest::IngestSummary best;
     Took ours;
     for (int i = 0; i <= bench.repeats; ++i) {  // the first run warms the page cache
-        const double before = busy_seconds();
+        const double before = processor_seconds();
         const auto summary = run_ours(bench, scratch.path() / "raw", scratch.path() / "out", device);
         if (i == 0 || (best.files > 0 && summary.seconds.wall >= ours.seconds)) continue;
         best = summary;
-        ours = {summary.seconds.wall, busy_seconds() - before};
+        ours = {summary.seconds.wall, processor_seconds() - before};
     }
     const auto& made_clips = best.datasets.at(0);
     const auto peer = run_peer(bench, scratch.path(), made_clips.clips);

@@ -1,6 +1,5 @@
 // actformer bench ingest: clips a second from raw text to shards, beside the reference program on the same clips.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <cstdio>
@@ -13,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
+#include "base/process/usage.hpp"
 #include "cli/bench.hpp"
 #include "cli/bench_babel.hpp"
 #include "cli/format.hpp"
@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct BenchIngestOptions {
     std::string format = "ntu";
     double gigabytes = 1, hours = 0.5, many_hours = 0;
     std::uint64_t clips = 4000, many = 0;
@@ -53,7 +53,7 @@ std::string copy_name(std::uint64_t i) {
 }
 
 /// Half of the clips are copies of the real sample where it is at hand, the others synthetic; all of one person.
-void make_raw(const Options& options, const fs::path& raw) {
+void make_raw(const BenchIngestOptions& options, const fs::path& raw) {
     std::optional<fs::path> real;
     if (fs::is_directory(options.sample))
         for (const auto& entry : fs::directory_iterator(options.sample))
@@ -72,7 +72,7 @@ void make_raw(const Options& options, const fs::path& raw) {
                    grouped(options.clips - copies));
 }
 
-ingest::IngestSummary run_ours(const Options& options, const fs::path& raw, const fs::path& out,
+ingest::IngestSummary run_ours(const BenchIngestOptions& options, const fs::path& raw, const fs::path& out,
                                kernels::Device& device) {
     fs::remove_all(out);
     ingest::IngestRequest request;
@@ -83,34 +83,25 @@ ingest::IngestSummary run_ours(const Options& options, const fs::path& raw, cons
     return ingest::ingest(request, format, device);
 }
 
-double cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 /// A run and the processor time it took, of all threads together.
 struct Measured {
     ingest::IngestSummary summary;
     double cpu = 0;
 };
 
-Measured best_of_ours(const Options& options, const Scratch& scratch, kernels::Device& device) {
+Measured best_of_ours(const BenchIngestOptions& options, const Scratch& scratch, kernels::Device& device) {
     Measured best;
     for (int i = 0; i <= options.repeats; ++i) {  // the first run warms the kernels and the page cache
-        const auto before = cpu_seconds();
+        const auto before = processor_seconds();
         const auto summary = run_ours(options, scratch.path() / "raw", scratch.path() / "out", device);
         if (i > 0 && (best.cpu == 0 || summary.seconds.wall < best.summary.seconds.wall))
-            best = {summary, cpu_seconds() - before};
+            best = {summary, processor_seconds() - before};
     }
     return best;
 }
 
 /// Clips a second of the reference program, by its own clock, which leaves out Python's start.
-std::optional<double> run_peer(const Options& options, const Scratch& scratch) {
+std::optional<double> run_peer(const BenchIngestOptions& options, const Scratch& scratch) {
     const std::string peer = options.peer.empty() ? "../shared/reference/preprocess.py" : options.peer;
     if (!fs::exists(peer)) return {};
     const auto line = fmt::format("'{}' '{}' '{}' '{}'", options.python, peer,
@@ -121,14 +112,9 @@ std::optional<double> run_peer(const Options& options, const Scratch& scratch) {
     return clips / seconds;
 }
 
-double peak_memory_mib() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
 /// Links the clips over and over under new names, so that memory can be watched with more clips than a disk has room for.
-ingest::IngestSummary run_many(const Options& options, const Scratch& scratch, kernels::Device& device) {
+ingest::IngestSummary run_many(const BenchIngestOptions& options, const Scratch& scratch,
+                               kernels::Device& device) {
     const auto many = scratch.path() / "many";
     fs::create_directories(many);
     std::vector<fs::path> files;
@@ -199,7 +185,7 @@ void make_arrays(const fs::path& path, std::uint64_t size) {
     if (!file.flush()) throw Error("{}: cannot be written; is the disk full?", path.string());
 }
 
-void run_motions(const Options& options) {
+void run_motions(const BenchIngestOptions& options) {
     kernels::Device device(options.device);
     const Scratch scratch("bench", options.folder);
     fs::create_directories(scratch.path() / "raw");
@@ -229,7 +215,7 @@ void run_motions(const Options& options) {
                    static_cast<double>(best.text_bytes) / best.seconds.wall / 1e9, peak_memory_mib());
 }
 
-void run(const Options& options) {
+void run(const BenchIngestOptions& options) {
     if (options.format == "motions") return run_motions(options);
     if (options.format == "babel")
         return bench_babel({options.hours, options.many_hours,
@@ -259,7 +245,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_bench_ingest(CLI::App& bench) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchIngestOptions>();
     auto* command = bench.add_subcommand("ingest", "From raw data to shards, beside a reference program");
     command
         ->add_option("--format", options->format,

@@ -1,11 +1,10 @@
 #include "model/generators/method_speed.hpp"
 
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cmath>
 #include <functional>
 
+#include "base/process/usage.hpp"
 #include "kernels/sampler.hpp"
 #include "model/generators/method.hpp"
 #include "model/nn/blas.hpp"
@@ -15,15 +14,6 @@ namespace actformer::model {
 namespace {
 
 constexpr std::uint32_t motions_timed = 100, clips_made = 64;
-
-double processor_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) * 1e-6;
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
 
 void time_into(Seconds& best, const std::function<void()>& work) {
     using Clock = std::chrono::steady_clock;
