@@ -10,6 +10,11 @@
 
 namespace actformer::test {
 
+/// Normal random numbers times `size`, in double, of which gradients are asked.
+inline at::Tensor random_input(at::IntArrayRef shape, double size = 1) {
+    return (at::randn(shape, at::kDouble) * size).set_requires_grad(true);
+}
+
 /// Gradients of sum(probe * function(inputs)) to a few numbers of every input, against central differences.
 inline void expect_gradients(const std::function<at::Tensor(const std::vector<at::Tensor>&)>& function,
                              const std::vector<at::Tensor>& inputs) {

@@ -10,10 +10,6 @@ using namespace actformer::test;
 
 namespace {
 
-at::Tensor random(at::IntArrayRef shape) {
-    return at::randn(shape, at::kDouble).set_requires_grad(true);
-}
-
 ConditionalNormTensors norm_of(const at::Tensor& gain, const at::Tensor& shift) {
     const auto channels = gain.size(1);
     return {.gain = gain,
@@ -52,7 +48,7 @@ TEST(ConditionalNorm, GradientsFlowThroughTheStatistics) {
     at::manual_seed(5);
     expect_gradients(
         [](const auto& in) { return conditional_norm(in[0], norm_of(in[1], in[2]), true, true); },
-        {random({3, 2, 6, 5}), random({3, 5}), random({3, 5})});
+        {random_input({3, 2, 6, 5}), random_input({3, 5}), random_input({3, 5})});
 }
 
 TEST(ConditionalNorm, TakesRunningStatisticsOutsideOfTraining) {

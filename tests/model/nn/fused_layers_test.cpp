@@ -13,10 +13,6 @@ using namespace actformer::test;
 
 namespace {
 
-at::Tensor random(at::IntArrayRef shape) {
-    return at::randn(shape, at::kDouble).set_requires_grad(true);
-}
-
 at::Tensor edges(const std::vector<std::array<int, 3>>& list) {
     auto tensor = at::empty({static_cast<std::int64_t>(list.size()), 3}, at::kInt);
     for (std::size_t e = 0; e < list.size(); ++e)
@@ -34,8 +30,8 @@ struct FusedLayers : testing::Test {
 }  // namespace
 
 TEST_F(FusedLayers, GraphConvolutionSumsOverEdges) {
-    const auto x = random({2, 5, 3, 7}), strength = random({7}), weight = random({21, 32}),
-               bias = random({3, 32});
+    const auto x = random_input({2, 5, 3, 7}), strength = random_input({7}), weight = random_input({21, 32}),
+               bias = random_input({3, 32});
     const auto y = fused_graph_convolution(x, strength, weight, bias, edges(chain));
     auto expected = bias.unsqueeze(0).unsqueeze(0).repeat({2, 5, 1, 1});
     for (std::size_t e = 0; e < chain.size(); ++e) {
@@ -51,15 +47,15 @@ TEST_F(FusedLayers, GraphConvolutionGradients) {
     const auto list = edges(chain);
     expect_gradients(
         [&](const auto& in) { return fused_graph_convolution(in[0], in[1], in[2], in[3], list); },
-        {random({2, 5, 3, 7}), random({7}), random({21, 32}), random({3, 32})});
+        {random_input({2, 5, 3, 7}), random_input({7}), random_input({21, 32}), random_input({3, 32})});
 }
 
 TEST_F(FusedLayers, TemporalConvolutionIsTorchs) {
     for (const std::int64_t stride : {1, 2})
         for (const std::int64_t taps : {1, 9})
             for (const std::int64_t frames : {1, 3, 8, 15, 16}) {
-                const auto x = random({2, frames, 3, 16}), weight = random({taps, 16, 48}),
-                           bias = random({48});
+                const auto x = random_input({2, frames, 3, 16}), weight = random_input({taps, 16, 48}),
+                           bias = random_input({48});
                 const auto y = fused_temporal_convolution(x, weight, bias, stride);
                 const auto expected =
                     at::conv2d(x.permute({0, 3, 1, 2}), weight.permute({2, 1, 0}).unsqueeze(3), bias,
@@ -75,12 +71,12 @@ TEST_F(FusedLayers, TemporalConvolutionGradients) {
             for (const std::int64_t frames : {3, 8})
                 expect_gradients(
                     [&](const auto& in) { return fused_temporal_convolution(in[0], in[1], in[2], stride); },
-                    {random({3, frames, 3, 16}), random({taps, 16, 32}), random({32})});
+                    {random_input({3, frames, 3, 16}), random_input({taps, 16, 32}), random_input({32})});
 }
 
 TEST_F(FusedLayers, NormIsTorchsAndMovesTheRunningStatistics) {
-    const auto x = random({4, 5, 3, 16}), weight = random({16}), bias = random({16}),
-               shortcut = random({4, 5, 3, 16});
+    const auto x = random_input({4, 5, 3, 16}), weight = random_input({16}), bias = random_input({16}),
+               shortcut = random_input({4, 5, 3, 16});
     auto mean = at::randn({16}, at::kDouble), variance = at::rand({16}, at::kDouble) + 0.5;
     auto torch_mean = mean.clone(), torch_variance = variance.clone();
     for (const bool training : {true, false}) {
@@ -105,9 +101,10 @@ TEST_F(FusedLayers, NormGradients) {
                         return fused_norm(in[0], {in[1], in[2], mean, variance}, {relu, drop, 12345},
                                           add ? in[3] : at::Tensor(), true);
                     },
-                    add ? std::vector<at::Tensor>{random({4, 5, 3, 16}), random({16}), random({16}),
-                                                  random({4, 5, 3, 16})}
-                        : std::vector<at::Tensor>{random({4, 5, 3, 16}), random({16}), random({16})});
+                    add ? std::vector<at::Tensor>{random_input({4, 5, 3, 16}), random_input({16}),
+                                                  random_input({16}), random_input({4, 5, 3, 16})}
+                        : std::vector<at::Tensor>{random_input({4, 5, 3, 16}), random_input({16}),
+                                                  random_input({16})});
             }
 }
 

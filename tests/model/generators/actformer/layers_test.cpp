@@ -14,16 +14,12 @@ using namespace actformer::test;
 
 namespace {
 
-at::Tensor random(at::IntArrayRef shape, double size = 1) {
-    return (at::randn(shape, at::kDouble) * size).set_requires_grad(true);
-}
-
 LinearTensors random_norm(std::int64_t width) {
-    return {random({width}), random({width})};
+    return {random_input({width}), random_input({width})};
 }
 
 LinearTensors random_linear(std::int64_t out, std::int64_t in) {
-    return {random({out, in}, 0.3), random({out})};
+    return {random_input({out, in}, 0.3), random_input({out})};
 }
 
 at::Tensor norm_of(const at::Tensor& x, const LinearTensors& norm) {
@@ -100,7 +96,7 @@ TEST_F(ActformerLayers, EmbeddingIsTokensPlusPositions) {
     for (const std::int64_t streams : {1, 3}) {
         const auto latent = at::randn({4, streams, 6, 5}, at::kDouble);
         const auto linear = random_linear(14, 5);
-        const auto classes = random({4, 14}), positions = random({7, 3, 14});
+        const auto classes = random_input({4, 14}), positions = random_input({7, 3, 14});
         const auto y = fused_embedding(latent, linear, classes, positions);
         const auto frames = at::linear(latent, linear.weight, linear.bias).expand({4, 3, 6, 14});
         const auto first = classes.view({4, 1, 1, 14}).expand({4, 3, 1, 14});
@@ -116,7 +112,7 @@ TEST_F(ActformerLayers, EmbeddingIsTokensPlusPositions) {
 TEST_F(ActformerLayers, AttentionOverShortAndLongSequences) {
     for (const bool over_persons : {true, false})
         for (const std::int64_t tokens : {3, 19}) {
-            const auto x = random({2, 3, tokens, 20});
+            const auto x = random_input({2, 3, tokens, 20});
             const auto norm = random_norm(20), qkv = random_linear(60, 20), proj = random_linear(20, 20);
             const auto y = fused_attention(x, norm, qkv, proj, 4, over_persons);
             expect_near(y, plain_attention(x, norm, qkv, proj, 4, over_persons), 1e-12);
@@ -136,7 +132,7 @@ TEST_F(ActformerLayers, AttentionOverShortAndLongSequences) {
 
 TEST_F(ActformerLayers, AttentionOfAFloatIsThatOfADouble) {
     // Widths and lengths of the paper: heads of 25 numbers, 61 tokens. Sums of 200 products in float differ by some 1e-5.
-    const auto x = random({3, 2, 61, 200});
+    const auto x = random_input({3, 2, 61, 200});
     const auto norm = random_norm(200), qkv = random_linear(600, 200), proj = random_linear(200, 200);
     const auto as_float = [](const LinearTensors& l) {
         return LinearTensors{l.weight.to(at::kFloat), l.bias.to(at::kFloat)};
@@ -150,7 +146,7 @@ TEST_F(ActformerLayers, AttentionOfAFloatIsThatOfADouble) {
 }
 
 TEST_F(ActformerLayers, Mlp) {
-    const auto x = random({3, 2, 7, 12});
+    const auto x = random_input({3, 2, 7, 12});
     const auto norm = random_norm(12), up = random_linear(22, 12), down = random_linear(12, 22);
     const auto y = fused_mlp(x, norm, up, down);
     const auto inner = at::gelu(at::linear(norm_of(x, norm), up.weight, up.bias));
@@ -219,7 +215,7 @@ at::Tensor plain_poses(const at::Tensor& x, const LinearTensors& norm, const Lin
 TEST_F(ActformerLayers, PosesAreFinishedAsTheirRepresentationHasThem) {
     for (const auto how : actformer::ingest::Representation::all()) {
         constexpr std::int64_t nodes = 19;  // no multiple of any vector's length
-        const auto x = random({2, 2, 6, 20});
+        const auto x = random_input({2, 2, 6, 20});
         const auto norm = random_norm(20), head = random_linear(nodes * how.numbers(), 20);
         const auto y = fused_poses(x, norm, head, how);
         expect_near(y, plain_poses(x, norm, head, how), 1e-12);
@@ -239,7 +235,7 @@ TEST_F(ActformerLayers, PosesAreFiniteWhereADirectionIsLost) {
     // All numbers of a node 0, and for rotations a second row along the first.
     for (const auto how : actformer::ingest::Representation::all()) {
         const auto d = std::int64_t{how.numbers()};
-        const auto x = random({1, 1, 4, 20});
+        const auto x = random_input({1, 1, 4, 20});
         auto weight = at::zeros({9 * d, 20}, at::kDouble), bias = at::zeros({9 * d}, at::kDouble);
         if (d == 6) bias.slice(0, 6, 12).copy_(at::tensor({1.0, 2.0, 3.0, 1.0, 2.0, 3.0}, at::kDouble));
         weight.set_requires_grad(true);
@@ -253,7 +249,7 @@ TEST_F(ActformerLayers, PosesAreFiniteWhereADirectionIsLost) {
 }
 
 TEST_F(ActformerLayers, MotionInputAppendsDifferences) {
-    const auto motion = random({2, 4, 6, 5});
+    const auto motion = random_input({2, 4, 6, 5});
     const auto y = fused_motion_input(motion, 2);
     const auto moved = motion.slice(2, 1) - motion.slice(2, 0, 5);
     const auto still = at::zeros({2, 4, 1, 5}, at::kDouble);
@@ -268,7 +264,8 @@ TEST_F(ActformerLayers, NodeConvolutionSumsOverHopsAndNodes) {
     EXPECT_EQ(groups->groups.size(), 6U);  // at no hop nodes 1 and 2, at one hop all four
     for (const std::int64_t stride : {1, 2}) {
         const std::int64_t taps = stride == 1 ? 5 : 4, padding = stride == 1 ? 2 : 1;
-        const auto x = random({3, 4, 9, 6}), weight = random({4, 2, 18, taps, 6}), bias = random({2, 18});
+        const auto x = random_input({3, 4, 9, 6}), weight = random_input({4, 2, 18, taps, 6}),
+                   bias = random_input({2, 18});
         const auto shape = node_shape(sums, 3, 9, 6, 18, taps, stride, padding);
         const auto y = fused_node_convolution(with_padding(x, padding), weight, bias, shape, groups, 0.2);
         expect_near(y, with_padding(plain_node_convolution(x, weight, bias, sums, stride, padding), 1),
@@ -284,7 +281,7 @@ TEST_F(ActformerLayers, NodeConvolutionSumsOverHopsAndNodes) {
 TEST_F(ActformerLayers, WeightsThatFeedNothingHaveNoGradient) {
     const auto sums = some_sums();
     const auto groups = groups_of(sums);
-    const auto x = at::randn({2, 4, 9 + 2, 6}, at::kDouble), weight = random({4, 2, 8, 4, 6});
+    const auto x = at::randn({2, 4, 9 + 2, 6}, at::kDouble), weight = random_input({4, 2, 8, 4, 6});
     fused_node_convolution(x, weight, {}, node_shape(sums, 2, 9, 6, 8, 4, 2, 1), groups, 0.2)
         .sum()
         .backward();
@@ -294,7 +291,8 @@ TEST_F(ActformerLayers, WeightsThatFeedNothingHaveNoGradient) {
 }
 
 TEST_F(ActformerLayers, SpectralNormGradientsHoldTheVectors) {
-    const auto weight = random({7, 2, 5}), u = at::randn({7}, at::kDouble), v = at::randn({10}, at::kDouble);
+    const auto weight = random_input({7, 2, 5}), u = at::randn({7}, at::kDouble),
+               v = at::randn({10}, at::kDouble);
     const auto y = fused_spectral(weight, u, v, false);
     expect_near(y, weight / at::dot(u, weight.view({7, 10}).mv(v)), 1e-12);
     expect_gradients([&](const auto& in) { return fused_spectral(in[0], u, v, false); }, {weight});
@@ -316,7 +314,8 @@ TEST_F(ActformerLayers, PowerIterationsFindTheLargestSingularValue) {
 
 TEST_F(ActformerLayers, ThreadsShareTheWork) {
     const int before = at::get_num_threads();
-    const auto x = random({5, 2, 9, 12}), weight = random({4, 2, 18, 4, 6}), motion = random({5, 4, 11, 6});
+    const auto x = random_input({5, 2, 9, 12}), weight = random_input({4, 2, 18, 4, 6}),
+               motion = random_input({5, 4, 11, 6});
     const auto norm = random_norm(12), qkv = random_linear(36, 12), proj = random_linear(12, 12);
     const auto sums = some_sums();
     const auto groups = groups_of(sums);
