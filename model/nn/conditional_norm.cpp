@@ -5,6 +5,7 @@
 
 #include "model/cpu/conditional_norm.hpp"
 #include "model/cpu/layer_clock.hpp"
+#include "model/nn/batch_norm.hpp"
 #include "model/nn/tensor_numbers.hpp"
 
 namespace actformer::model {
@@ -14,12 +15,7 @@ using torch::autograd::AutogradContext;
 using torch::autograd::Function;
 using torch::autograd::variable_list;
 
-constexpr double epsilon = 1e-5;
 constexpr const char* layer = "conditional normalisation";
-
-at::Tensor inverse_deviation(const at::Tensor& variance) {
-    return (variance + epsilon).rsqrt();
-}
 
 void move_running(const ConditionalNormTensors& norm, const at::Tensor& mean, const at::Tensor& variance,
                   std::int64_t numbers) {
@@ -49,7 +45,7 @@ at::Tensor normalised_here(const at::Tensor& x, const cpu::ConditionalNormShape&
 }
 
 /// By statistics that the gradient flows through: `mean` and `inverse` are the batch's.
-struct BatchNorm : Function<BatchNorm> {
+struct ConditionalNorm : Function<ConditionalNorm> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& mean,
                               const at::Tensor& inverse, const at::Tensor& gain, const at::Tensor& shift,
                               double leak, std::int64_t padding, std::int64_t out_padding) {
@@ -95,8 +91,8 @@ at::Tensor fused_norm(const at::Tensor& x, const ConditionalNormTensors& norm, b
         });
     }
     move_running(norm, mean, variance, shape.numbers_a_channel());
-    return BatchNorm::apply(x, mean, inverse_deviation(variance), gain, shift, norm.leak, norm.padding,
-                            norm.out_padding);
+    return ConditionalNorm::apply(x, mean, inverse_deviation(variance), gain, shift, norm.leak, norm.padding,
+                                  norm.out_padding);
 }
 
 at::Tensor plain_norm(const at::Tensor& x, const ConditionalNormTensors& norm, bool training) {

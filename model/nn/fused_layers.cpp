@@ -4,6 +4,7 @@
 #include <torch/csrc/autograd/custom_function.h>
 
 #include "base/error.hpp"
+#include "model/nn/batch_norm.hpp"
 #include "model/nn/tensor_numbers.hpp"
 
 namespace actformer::model {
@@ -13,7 +14,7 @@ using torch::autograd::AutogradContext;
 using torch::autograd::Function;
 using torch::autograd::variable_list;
 
-constexpr double momentum = 0.1, epsilon = 1e-5;
+constexpr double momentum = 0.1;
 
 cpu::MotionShape shape_of(const at::Tensor& x) {
     return {x.size(0), x.size(1), x.size(2)};
@@ -94,8 +95,8 @@ struct TemporalConvolution : Function<TemporalConvolution> {
 };
 
 template <typename T>
-cpu::Norm<T> norm_of(const at::Tensor& mean, const at::Tensor& inverse, const at::Tensor& weight,
-                     const at::Tensor& bias) {
+cpu::Norm<T> batch_norm_of(const at::Tensor& mean, const at::Tensor& inverse, const at::Tensor& weight,
+                           const at::Tensor& bias) {
     return {in<T>(mean), in<T>(inverse), in<T>(weight), bias.defined() ? in<T>(bias) : nullptr};
 }
 
@@ -106,15 +107,11 @@ at::Tensor normalised(const at::Tensor& x, const at::Tensor& mean, const at::Ten
     auto y = at::empty_like(x);
     by_type(x, [&](auto number) {
         using T = decltype(number);
-        cpu::norm_forward<T>(in<T>(x), shape_of(x).rows(), x.size(3), norm_of<T>(mean, inverse, weight, bias),
-                             finish, shortcut.defined() ? in<T>(shortcut) : nullptr, in<T>(y),
-                             at::get_num_threads());
+        cpu::norm_forward<T>(in<T>(x), shape_of(x).rows(), x.size(3),
+                             batch_norm_of<T>(mean, inverse, weight, bias), finish,
+                             shortcut.defined() ? in<T>(shortcut) : nullptr, in<T>(y), at::get_num_threads());
     });
     return y;
-}
-
-at::Tensor inverse_deviation(const at::Tensor& variance) {
-    return (variance.to(at::kDouble) + epsilon).rsqrt().to(variance.scalar_type());
 }
 
 /// Functions take no undefined tensors: an empty `shortcut` stands for none.
@@ -144,7 +141,7 @@ struct BatchNorm : Function<BatchNorm> {
         by_type(x, [&](auto number) {
             using T = decltype(number);
             cpu::norm_backward<T>(in<T>(x), shape_of(x).rows(), x.size(3),
-                                  norm_of<T>(mean, inverse, weight, {}), finish, in<T>(y), in<T>(grad),
+                                  batch_norm_of<T>(mean, inverse, weight, {}), finish, in<T>(y), in<T>(grad),
                                   in<T>(to_x), to_shortcut.defined() ? in<T>(to_shortcut) : nullptr,
                                   in<T>(to_weight), in<T>(to_bias), at::get_num_threads());
         });

@@ -27,12 +27,12 @@ const Half& half_of(AutogradContext* context) {
     return static_cast<const Half&>(*context->saved_data["half"].toCapsule());
 }
 
-cpu::TokenShape token_shape(const at::Tensor& x) {
+cpu::TokenShape sequence_shape(const at::Tensor& x) {
     return {x.size(0), 1, x.size(1), x.size(2)};
 }
 
 cpu::AttentionShape attention_shape(const at::Tensor& x, const Half& half) {
-    return {token_shape(x), half.heads, false};
+    return {sequence_shape(x), half.heads, false};
 }
 
 /// Two linear maps and the norm behind, as Functions save them behind x.
@@ -61,7 +61,7 @@ cpu::SumNormWeights<T> sum_weights(const at::Tensor* w, const Half& half) {
             half.dropout.within};
 }
 
-constexpr const char *attention_name = "attention", *mlp_name = "MLP", *sum_name = "attention to one token";
+constexpr const char *of_attention = "attention", *of_mlp = "MLP", *of_sum = "attention to one token";
 
 struct AttentionNorm : Function<AttentionNorm> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& qkv,
@@ -72,7 +72,7 @@ struct AttentionNorm : Function<AttentionNorm> {
              kept_seen = at::empty({shape.tokens.rows(), shape.seen_pitch()}, x.options()),
              sum = at::empty_like(x), y = at::empty_like(x);
         const at::Tensor weights[] = {qkv, qkv_bias, proj, proj_bias, norm, norm_bias};
-        timed(attention_name, false, x, [&](auto number) {
+        timed(of_attention, false, x, [&](auto number) {
             using T = decltype(number);
             cpu::attention_norm_forward<T>(shape, in<T>(x), attention_weights<T>(weights, *half),
                                            {in<T>(kept_qkv), in<T>(kept_seen), in<T>(sum)}, in<T>(y),
@@ -91,7 +91,7 @@ struct AttentionNorm : Function<AttentionNorm> {
         const auto grad = grads[0].contiguous();
         auto to_x = at::empty_like(x);
         const Gradients qkv(saved[1], saved[2]), proj(saved[3], saved[4]), norm(saved[5], saved[6]);
-        timed(attention_name, true, x, [&](auto number) {
+        timed(of_attention, true, x, [&](auto number) {
             using T = decltype(number);
             cpu::attention_norm_backward<T>(
                 attention_shape(x, half), in<T>(x), attention_weights<T>(&saved[1], half),
@@ -106,11 +106,11 @@ struct MlpNorm : Function<MlpNorm> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& up,
                               const at::Tensor& up_bias, const at::Tensor& down, const at::Tensor& down_bias,
                               const at::Tensor& norm, const at::Tensor& norm_bias, const HalfPointer& half) {
-        const cpu::MlpShape shape{token_shape(x), up.size(0)};
+        const cpu::MlpShape shape{sequence_shape(x), up.size(0)};
         auto kept_up = at::empty({shape.tokens.rows(), shape.hidden_pitch()}, x.options()),
              sum = at::empty_like(x), y = at::empty_like(x);
         const at::Tensor weights[] = {up, up_bias, down, down_bias, norm, norm_bias};
-        timed(mlp_name, false, x, [&](auto number) {
+        timed(of_mlp, false, x, [&](auto number) {
             using T = decltype(number);
             cpu::mlp_norm_forward<T>(shape, in<T>(x), mlp_weights<T>(weights, *half),
                                      {in<T>(kept_up), in<T>(sum)}, in<T>(y), threads());
@@ -127,9 +127,9 @@ struct MlpNorm : Function<MlpNorm> {
         const auto grad = grads[0].contiguous();
         auto to_x = at::empty_like(x);
         const Gradients up(saved[1], saved[2]), down(saved[3], saved[4]), norm(saved[5], saved[6]);
-        timed(mlp_name, true, x, [&](auto number) {
+        timed(of_mlp, true, x, [&](auto number) {
             using T = decltype(number);
-            cpu::mlp_norm_backward<T>({token_shape(x), saved[1].size(0)}, in<T>(x),
+            cpu::mlp_norm_backward<T>({sequence_shape(x), saved[1].size(0)}, in<T>(x),
                                       mlp_weights<T>(&saved[1], half), {in<T>(saved[7]), in<T>(saved[8])},
                                       in<T>(grad), {in<T>(to_x), norm.to<T>(), up.to<T>(), down.to<T>()},
                                       threads());
@@ -144,9 +144,9 @@ struct SumNorm : Function<SumNorm> {
                               const HalfPointer& half) {
         auto sum = at::empty_like(x), y = at::empty_like(x);
         const at::Tensor weights[] = {parts, bias, norm, norm_bias};
-        timed(sum_name, false, x, [&](auto number) {
+        timed(of_sum, false, x, [&](auto number) {
             using T = decltype(number);
-            cpu::sum_norm_forward<T>({token_shape(x), parts.size(1)}, in<T>(x),
+            cpu::sum_norm_forward<T>({sequence_shape(x), parts.size(1)}, in<T>(x),
                                      sum_weights<T>(weights, *half), in<T>(sum), in<T>(y), threads());
         });
         context->save_for_backward({parts, bias, norm, norm_bias, sum});
@@ -160,10 +160,10 @@ struct SumNorm : Function<SumNorm> {
         const auto grad = grads[0].contiguous();
         auto to_x = at::empty_like(sum), to_parts = at::empty_like(parts), to_bias = at::empty_like(bias);
         const Gradients norm(saved[2], saved[3]);
-        timed(sum_name, true, sum, [&](auto number) {
+        timed(of_sum, true, sum, [&](auto number) {
             using T = decltype(number);
             cpu::sum_norm_backward<T>(
-                {token_shape(sum), parts.size(1)}, sum_weights<T>(&saved[0], half_of(context)), in<T>(sum),
+                {sequence_shape(sum), parts.size(1)}, sum_weights<T>(&saved[0], half_of(context)), in<T>(sum),
                 in<T>(grad), {in<T>(to_x), in<T>(to_parts), in<T>(to_bias), norm.to<T>()}, threads());
         });
         return {to_x, to_parts, to_bias, norm.weight, norm.bias, {}};
@@ -186,7 +186,7 @@ at::Tensor fused_attention_norm(const at::Tensor& x, const LinearTensors& qkv, c
     auto y = at::empty_like(x);
     const at::Tensor weights[] = {qkv.weight, qkv.bias,         proj.weight,
                                   proj.bias,  post.norm.weight, post.norm.bias};
-    timed(attention_name, false, x, [&](auto number) {
+    timed(of_attention, false, x, [&](auto number) {
         using T = decltype(number);
         cpu::attention_norm_forward<T>(attention_shape(x, *how), in<T>(x),
                                        attention_weights<T>(weights, *how), {nullptr, nullptr, nullptr},
@@ -204,10 +204,10 @@ at::Tensor fused_mlp_norm(const at::Tensor& x, const LinearTensors& up, const Li
     auto y = at::empty_like(x);
     const at::Tensor weights[] = {up.weight, up.bias,          down.weight,
                                   down.bias, post.norm.weight, post.norm.bias};
-    timed(mlp_name, false, x, [&](auto number) {
+    timed(of_mlp, false, x, [&](auto number) {
         using T = decltype(number);
-        cpu::mlp_norm_forward<T>({token_shape(x), up.weight.size(0)}, in<T>(x), mlp_weights<T>(weights, *how),
-                                 {nullptr, nullptr}, in<T>(y), threads());
+        cpu::mlp_norm_forward<T>({sequence_shape(x), up.weight.size(0)}, in<T>(x),
+                                 mlp_weights<T>(weights, *how), {nullptr, nullptr}, in<T>(y), threads());
     });
     return y;
 }
@@ -218,9 +218,9 @@ at::Tensor fused_sum_norm(const at::Tensor& x, const at::Tensor& parts, const at
     if (keeps()) return SumNorm::apply(x, parts, bias, post.norm.weight, post.norm.bias, how);
     auto y = at::empty_like(x);
     const at::Tensor weights[] = {parts, bias, post.norm.weight, post.norm.bias};
-    timed(sum_name, false, x, [&](auto number) {
+    timed(of_sum, false, x, [&](auto number) {
         using T = decltype(number);
-        cpu::sum_norm_forward<T>({token_shape(x), parts.size(1)}, in<T>(x), sum_weights<T>(weights, *how),
+        cpu::sum_norm_forward<T>({sequence_shape(x), parts.size(1)}, in<T>(x), sum_weights<T>(weights, *how),
                                  nullptr, in<T>(y), threads());
     });
     return y;

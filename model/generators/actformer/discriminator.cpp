@@ -2,11 +2,11 @@
 
 #include "base/error.hpp"
 #include "model/generators/graph/motion_input.hpp"
+#include "model/generators/graph/node_convolution.hpp"
 
 namespace actformer::model {
 namespace {
 
-constexpr double leak = 0.2;
 constexpr std::int64_t person_heads = 8, last_padding = 1;
 
 DiscriminatorSettings checked(DiscriminatorSettings settings) {

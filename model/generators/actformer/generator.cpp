@@ -2,11 +2,12 @@
 
 #include "base/error.hpp"
 #include "model/generators/finish.hpp"
+#include "model/generators/graph/node_convolution.hpp"
 
 namespace actformer::model {
 namespace {
 
-constexpr double norm_epsilon = 1e-6, leak = 0.2;
+constexpr double norm_epsilon = 1e-6;
 
 at::Tensor tensor_of(const HopMatrix& matrix, at::ScalarType type) {
     auto values = matrix.values;

@@ -15,7 +15,7 @@ constexpr std::uint64_t site_bits = 11;
 
 /// Places where numbers are dropped: of the two stacks' tokens, and of each layer.
 constexpr std::uint64_t encoder_tokens = 0, decoder_tokens = 1;
-enum Place : std::uint64_t { weights, branch, hidden, mapped_branch, cross_weights, cross_branch };
+enum Site : std::uint64_t { weights, branch, hidden, mapped_branch, cross_weights, cross_branch };
 
 std::uint64_t site_of(bool decoder, std::uint64_t layer) {
     constexpr std::uint64_t places = 8, most_layers = 64;
@@ -87,8 +87,8 @@ at::Tensor ActorNet::attention(const at::Tensor& queries, const at::Tensor& toke
 /// The norm of queries plus what they see of tokens.
 at::Tensor ActorNet::attended(const at::Tensor& queries, const at::Tensor& tokens, const std::string& layer,
                               std::uint64_t site, const ActorDropout& dropout) const {
-    const auto seen = attention(queries, tokens, layer + "self_attn", dropout.at(site + Place::weights));
-    return norm(queries + dropped(seen, dropout.at(site + Place::branch)), layer + "norm1");
+    const auto seen = attention(queries, tokens, layer + "self_attn", dropout.at(site + Site::weights));
+    return norm(queries + dropped(seen, dropout.at(site + Site::branch)), layer + "norm1");
 }
 
 at::Tensor ActorNet::fused_attended(const at::Tensor& x, const std::string& layer, std::uint64_t site,
@@ -96,24 +96,23 @@ at::Tensor ActorNet::fused_attended(const at::Tensor& x, const std::string& laye
     return fused_attention_norm(x, projections(layer + "self_attn", 0, 3),
                                 linear(layer + "self_attn.out_proj"), {linear(layer + "norm1"), norm_epsilon},
                                 settings_.heads,
-                                {dropout.at(site + Place::weights), dropout.at(site + Place::branch)});
+                                {dropout.at(site + Site::weights), dropout.at(site + Site::branch)});
 }
 
 /// The norm of x plus its MLP.
 at::Tensor ActorNet::mapped(const at::Tensor& x, const std::string& layer, const char* norm,
                             std::uint64_t site, const ActorDropout& dropout) const {
     const auto up = linear(layer + "linear1"), down = linear(layer + "linear2");
-    const auto active =
-        dropped(at::gelu(at::linear(x, up.weight, up.bias)), dropout.at(site + Place::hidden));
+    const auto active = dropped(at::gelu(at::linear(x, up.weight, up.bias)), dropout.at(site + Site::hidden));
     const auto out = at::linear(active, down.weight, down.bias);
-    return this->norm(x + dropped(out, dropout.at(site + Place::mapped_branch)), layer + norm);
+    return this->norm(x + dropped(out, dropout.at(site + Site::mapped_branch)), layer + norm);
 }
 
 at::Tensor ActorNet::fused_mapped(const at::Tensor& x, const std::string& layer, const char* norm,
                                   std::uint64_t site, const ActorDropout& dropout) const {
     return fused_mlp_norm(x, linear(layer + "linear1"), linear(layer + "linear2"),
                           {linear(layer + norm), norm_epsilon},
-                          {dropout.at(site + Place::hidden), dropout.at(site + Place::mapped_branch)});
+                          {dropout.at(site + Site::hidden), dropout.at(site + Site::mapped_branch)});
 }
 
 /// What every query sees of a single token (N, W): its value alone, whatever the query, for the softmax of one score is 1. The
@@ -136,10 +135,10 @@ at::Tensor ActorNet::crossed(const at::Tensor& x, const at::Tensor& memory, cons
     auto seen = seen_of(memory, name, drops);
     if (drops) {
         const auto all = at::ones({x.size(0), x.size(1), std::int64_t{settings_.heads}}, x.options());
-        seen = dropped(all, dropout.at(site + Place::cross_weights)).matmul(seen);
+        seen = dropped(all, dropout.at(site + Site::cross_weights)).matmul(seen);
     }
     const auto out = seen + weights_.at(name + ".out_proj.bias");
-    return norm(x + dropped(out, dropout.at(site + Place::cross_branch)), layer + "norm2");
+    return norm(x + dropped(out, dropout.at(site + Site::cross_branch)), layer + "norm2");
 }
 
 at::Tensor ActorNet::fused_crossed(const at::Tensor& x, const at::Tensor& memory, const std::string& layer,
@@ -147,7 +146,7 @@ at::Tensor ActorNet::fused_crossed(const at::Tensor& x, const at::Tensor& memory
     const auto name = layer + "multihead_attn";
     return fused_sum_norm(x, seen_of(memory, name, dropout.rate > 0), weights_.at(name + ".out_proj.bias"),
                           {linear(layer + "norm2"), norm_epsilon},
-                          {dropout.at(site + Place::cross_weights), dropout.at(site + Place::cross_branch)});
+                          {dropout.at(site + Site::cross_weights), dropout.at(site + Site::cross_branch)});
 }
 
 ActorNet::Latent ActorNet::encode(const at::Tensor& motion, const at::Tensor& labels,

@@ -7,8 +7,6 @@
 namespace actformer::model {
 namespace {
 
-constexpr double leak = 0.2;
-
 /// Motions and their differences over time as the first layer takes them, (N, K, padding + T + padding, 2C).
 at::Tensor input(const at::Tensor& motion, std::int64_t padding, bool fused) {
     if (fused) return fused_motion_input(motion.contiguous(), padding);

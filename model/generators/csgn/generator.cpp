@@ -8,7 +8,7 @@
 namespace actformer::model {
 namespace {
 
-constexpr double leak = 0.2, linear = 1;
+constexpr double linear = 1;  ///< as LeakyReLU's slope
 
 /// Latents by which the EMA's running statistics are found: batches, motions of each, and where the prior's draws of a training
 /// never come to.

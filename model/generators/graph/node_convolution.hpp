@@ -9,6 +9,8 @@
 
 namespace actformer::model {
 
+constexpr double leak = 0.2;  ///< by which LeakyReLU multiplies negative numbers
+
 /// The fixed sums of one convolution over nodes, for libtorch's operators and for kernels of our own.
 struct GraphSums {
     at::Tensor matrix;  ///< (hops, out nodes, in nodes)
@@ -16,14 +18,14 @@ struct GraphSums {
 };
 
 /// x (N, in nodes, padded frames, in), weight (out, hops, taps, in), bias (out nodes, out) or undefined -> (N, out nodes,
-/// frames with shape.out_padding zeros on either side, out), and its LeakyReLU; a `leak` of 1 leaves it linear. `fused` takes
+/// frames with shape.out_padding zeros on either side, out), and its LeakyReLU; a `slope` of 1 leaves it linear. `fused` takes
 /// kernels of our own, on processors; else libtorch's operators, as matrix products.
 at::Tensor graph_convolution(const at::Tensor& x, const at::Tensor& weight, const at::Tensor& bias,
-                             const cpu::NodeShape& shape, const GraphSums& sums, double leak, bool fused);
+                             const cpu::NodeShape& shape, const GraphSums& sums, double slope, bool fused);
 
 /// The same with one convolution over all nodes, weight (out, in nodes, taps, in), bias (out) -> (N, 1, frames, out).
 at::Tensor convolution_over_nodes(const at::Tensor& x, const at::Tensor& weight, const at::Tensor& bias,
-                                  const cpu::NodeShape& shape, const GraphSums& sums, double leak,
+                                  const cpu::NodeShape& shape, const GraphSums& sums, double slope,
                                   bool fused);
 
 }  // namespace actformer::model
