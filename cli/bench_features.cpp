@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct BenchFeaturesOptions {
     std::string recogniser, peers, node_modules, python = "/usr/bin/python3", device;
     std::uint32_t frames = 64, batch = 64;
     int rounds = 5;
@@ -39,7 +39,7 @@ constexpr std::array<const char*, 8> step_names{"enter",    "gather", "graph",  
 using Breakdown = std::array<std::array<double, step_names.size()>, eval::stgcn_layers>;
 
 Breakdown time_steps(kernels::Device& device, const eval::Weights& weights, const kernels::Tiles& tiles,
-                     const Options& options) {
+                     const BenchFeaturesOptions& options) {
     using Clock = std::chrono::steady_clock;
     Breakdown best{};
     eval::StgcnRecogniser recogniser(device, weights, tiles);
@@ -80,7 +80,8 @@ struct Peers {
 /// The peers, and a folder with the weights and the exported network for them.
 class PeerRunner {
   public:
-    PeerRunner(const Options& options, const eval::Weights& weights) : options_(options), weights_(weights) {
+    PeerRunner(const BenchFeaturesOptions& options, const eval::Weights& weights)
+        : options_(options), weights_(weights) {
         if (options.peers.empty()) return;
         if (!fs::exists(fs::path(options.peers) / "stgcn.py"))
             throw Error("{}: holds no stgcn.py; --peers names the folder of the reference programs",
@@ -111,12 +112,12 @@ class PeerRunner {
         if (now && (!best || *now > *best)) best = now;
     }
 
-    const Options& options_;
+    const BenchFeaturesOptions& options_;
     const eval::Weights& weights_;
     std::optional<Scratch> folder_;
 };
 
-struct Result {
+struct FeatureTimes {
     double rate = 0, peak = 0, direct = 0, multiplied = 0;  ///< a second; operations in GFLOP a sequence
     Peers peers;
     Breakdown steps{};
@@ -143,7 +144,7 @@ void print_breakdown(const Breakdown& steps) {
     fmt::print("\n");
 }
 
-void print_text(const Result& r, const Options& options, const kernels::Device& device,
+void print_text(const FeatureTimes& r, const BenchFeaturesOptions& options, const kernels::Device& device,
                 const kernels::Tiles& tiles) {
     fmt::print("{}: {}\n", device.info().name, describe(tiles));
     fmt::print("actformer          {:>8.1f} sequences/s of {} frames, batches of {}\n", r.rate,
@@ -165,7 +166,7 @@ void print_text(const Result& r, const Options& options, const kernels::Device& 
     print_breakdown(r.steps);
 }
 
-void print_json(const Result& r, const Options& options, const kernels::Device& device,
+void print_json(const FeatureTimes& r, const BenchFeaturesOptions& options, const kernels::Device& device,
                 const kernels::Tiles& tiles) {
     Json steps = Json::array();
     for (const auto& layer : r.steps) {
@@ -192,9 +193,9 @@ void print_json(const Result& r, const Options& options, const kernels::Device& 
 }
 
 /// Peers and program take turns, so that a busy machine disturbs them alike; each keeps its best.
-Result measure(kernels::Device& device, const eval::Weights& weights, const kernels::Tiles& tiles,
-               const Options& options) {
-    Result result;
+FeatureTimes measure(kernels::Device& device, const eval::Weights& weights, const kernels::Tiles& tiles,
+                     const BenchFeaturesOptions& options) {
+    FeatureTimes result;
     result.direct = eval::direct_operations(weights, options.frames) * 1e-9;
     result.multiplied = eval::multiplied_operations(weights, options.frames) * 1e-9;
     PeerRunner peers(options, weights);
@@ -208,7 +209,7 @@ Result measure(kernels::Device& device, const eval::Weights& weights, const kern
     return result;
 }
 
-void run(const Options& options) {
+void run(const BenchFeaturesOptions& options) {
     kernels::Device device(options.device);
     const auto weights = options.recogniser.empty() ? eval::random_weights(3, 94, eval::ntu_graph(), 1, 0)
                                                     : eval::read_weights(options.recogniser);
@@ -228,7 +229,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_bench_features(CLI::App& bench) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchFeaturesOptions>();
     auto* command = bench.add_subcommand(
         "features", "The recogniser on an OpenCL device, beside PyTorch and ONNX Runtime");
     command->add_option("--recogniser", options->recogniser,

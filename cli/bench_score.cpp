@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct BenchScoreOptions {
     std::size_t classes = 94, dimensions = 256, real = 500, generated = 100;
     std::string peer = "tests/bench/frechet_sqrtm.py", python = "/usr/bin/python3";
     int repeats = 5;
@@ -29,7 +29,7 @@ struct Options {
 };
 
 /// Features as a recogniser's are: positive, correlated, most of the spread in few directions.
-eval::Samples made_samples(const Options& options, std::size_t per_class, unsigned seed) {
+eval::Samples made_samples(const BenchScoreOptions& options, std::size_t per_class, unsigned seed) {
     constexpr std::size_t directions = 40;
     std::mt19937 random(seed), shape(7);
     std::normal_distribution<double> normal;
@@ -67,7 +67,8 @@ struct Peer {
     std::vector<double> distances;
 };
 
-std::optional<Peer> run_peer(const Options& options, const eval::Samples& real, const eval::Samples& made) {
+std::optional<Peer> run_peer(const BenchScoreOptions& options, const eval::Samples& real,
+                             const eval::Samples& made) {
     if (!fs::exists(options.peer)) return {};
     const Scratch scratch("bench");
     const auto real_file = scratch.path() / "real.h5", made_file = scratch.path() / "made.h5";
@@ -80,7 +81,7 @@ std::optional<Peer> run_peer(const Options& options, const eval::Samples& real, 
     return Peer{json["mean_seconds"], json["whole_seconds"], json["whole"], json["distances"]};
 }
 
-struct Result {
+struct ScoreTimes {
     double mean_seconds = 0, whole_seconds = 0, fid_mean = 0, fid_whole = 0;
     std::optional<Peer> peer;
     double difference = 0;  ///< the largest, relative
@@ -100,10 +101,10 @@ double best_of(int repeats, Work work) {
     return best;
 }
 
-Result measure(const Options& options) {
+ScoreTimes measure(const BenchScoreOptions& options) {
     const auto real = made_samples(options, options.real, 1),
                made = made_samples(options, options.generated, 2);
-    Result out;
+    ScoreTimes out;
     std::vector<std::optional<double>> each;
     out.mean_seconds = best_of(options.repeats, [&] {
         each = eval::distances_by_class(moments_by_class(real), moments_by_class(made));
@@ -123,7 +124,7 @@ Result measure(const Options& options) {
     return out;
 }
 
-void print_json(const Result& r, const Options& options) {
+void print_json(const ScoreTimes& r, const BenchScoreOptions& options) {
     nlohmann::ordered_json out{{"classes", options.classes},
                                {"dimensions", options.dimensions},
                                {"real", options.real},
@@ -140,7 +141,7 @@ void print_json(const Result& r, const Options& options) {
     fmt::print("{}\n", out.dump(2));
 }
 
-void run(const Options& options) {
+void run(const BenchScoreOptions& options) {
     const auto r = measure(options);
     if (options.json) return print_json(r, options);
     fmt::print("{} classes of {} real and {} generated samples in {} dimensions\n", options.classes,
@@ -162,7 +163,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_bench_score(CLI::App& bench) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchScoreOptions>();
     auto* command = bench.add_subcommand("score", "FIDs of many classes, beside SciPy's matrix square root");
     const auto count = [&](const char* name, std::size_t& value, const char* text) {
         command->add_option(name, value, text)->check(CLI::Range(2, 1'000'000))->capture_default_str();

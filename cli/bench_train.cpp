@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct BenchTrainOptions {
     model::SpeedRequest request{2, 26, 60, 64, 2};
     std::string peers, python = "/usr/bin/python3", method, program;
     std::vector<std::string> overrides;
@@ -34,7 +34,7 @@ constexpr std::array<const char*, 3> names{"discriminator step", "generator step
 constexpr std::array<double, 3> shown_times{1, 1, 94};
 
 /// The peer's three times, its own best of three; none where it cannot run.
-std::optional<Times> ask_peer(const Options& options) {
+std::optional<Times> ask_peer(const BenchTrainOptions& options) {
     const auto program = fs::path(options.peers) / "actformer_speed.py";
     if (!fs::exists(program))
         throw Error("{}: holds no actformer_speed.py; --peers names the folder of the reference programs",
@@ -67,7 +67,7 @@ void print_layers(const model::StepTime& step, const char* name) {
     fmt::print("  {:<32} {:>9.2f}\n", "the rest", left);
 }
 
-void print_text(const Result& result, const Options& options) {
+void print_text(const Result& result, const BenchTrainOptions& options) {
     const auto& r = options.request;
     fmt::print("{}\n{} persons, {} classes, {} frames, batches of {}\n", result.machine, r.persons, r.classes,
                r.frames, r.batch);
@@ -87,7 +87,7 @@ void print_text(const Result& result, const Options& options) {
     print_layers(*result.ours[2], "hundred motions");
 }
 
-void print_json(const Result& result, const Options& options) {
+void print_json(const Result& result, const BenchTrainOptions& options) {
     const auto& r = options.request;
     Json out{{"machine", result.machine}, {"persons", r.persons}, {"classes", r.classes},
              {"frames", r.frames},        {"batch", r.batch},     {"threads", r.threads}};
@@ -105,7 +105,7 @@ void print_json(const Result& result, const Options& options) {
 }
 
 /// The program and its peer take turns, so that a busy machine disturbs them alike; each keeps its best.
-void run(const Options& options) {
+void run(const BenchTrainOptions& options) {
     model::SpeedTest test(options.request);
     Result result;
     for (int turn = 0; turn < (options.peers.empty() ? 1 : 2); ++turn) {
@@ -125,7 +125,7 @@ void run(const Options& options) {
 /// Seconds of a step by the clock and of processors, and both of 100 motions.
 using MethodTimes = std::array<double, 4>;
 
-std::optional<MethodTimes> ask_method_peer(const Options& options) {
+std::optional<MethodTimes> ask_method_peer(const BenchTrainOptions& options) {
     if (options.program.empty()) return {};
     const auto& r = options.request;
     const auto line = fmt::format(
@@ -140,8 +140,8 @@ std::optional<MethodTimes> ask_method_peer(const Options& options) {
     return times;
 }
 
-void print_method(const Options& options, const MethodTimes& ours, const std::optional<MethodTimes>& peer,
-                  const std::string& machine) {
+void print_method(const BenchTrainOptions& options, const MethodTimes& ours,
+                  const std::optional<MethodTimes>& peer, const std::string& machine) {
     constexpr std::array<const char*, 4> rows{"step", "step, processors", "100 motions",
                                               "100 motions, processors"};
     if (options.json) {
@@ -163,7 +163,7 @@ void print_method(const Options& options, const MethodTimes& ours, const std::op
 }
 
 /// Any method, through what all of them have: a step of training, and motions.
-void run_method(const Options& options) {
+void run_method(const BenchTrainOptions& options) {
     const auto& r = options.request;
     model::MethodSpeed test(
         {options.method, options.overrides, r.persons, r.classes, r.frames, r.batch, r.threads});
@@ -182,7 +182,7 @@ void run_method(const Options& options) {
 }  // namespace
 
 void add_bench_train(CLI::App& bench) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchTrainOptions>();
     auto* command = bench.add_subcommand("train", "Training and generation, beside eager PyTorch");
     const auto number = [&](const char* name, std::uint32_t& to, const char* what, std::uint32_t least,
                             std::uint32_t most) {

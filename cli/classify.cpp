@@ -18,7 +18,7 @@ namespace {
 using Clips = std::vector<eval::Classified>;
 using Names = std::vector<std::string>;
 
-struct Options : MotionOptions {
+struct ClassifyOptions : MotionOptions {
     std::filesystem::path out;
     bool json = false;
 };
@@ -74,7 +74,7 @@ void print_table(const Clips& clips, const Names& names) {
     }
 }
 
-void run(const Options& options) {
+void run(const ClassifyOptions& options) {
     kernels::Device device(options.device);
     eval::FeatureExtractor extractor(device, options.recogniser, options.batch);
     const auto motions = options.open(device, extractor);
@@ -94,7 +94,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_classify(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ClassifyOptions>();
     auto* command = app.add_subcommand("classify", "The actions of clips without labels");
     add_motion_options(command, *options);
     command->add_option("-o,--out", options->out, "The table as a CSV file")->type_name("CLASSES.csv");

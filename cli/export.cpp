@@ -13,12 +13,12 @@
 namespace actformer::cli {
 namespace {
 
-struct Options {
+struct ExportOptions {
     ingest::ExportRequest request;
     bool json = false;
 };
 
-void print_text(const ingest::ExportSummary& summary, const Options& options) {
+void print_text(const ingest::ExportSummary& summary, const ExportOptions& options) {
     const auto folder = summary.files.size() != 1 || summary.files[0] != options.request.out;
     fmt::print("{}: {}, {}{}\n", options.request.out.string(), counted(summary.clips, "clip"),
                counted(summary.frames, "frame"), folder ? ", " + counted(summary.files.size(), "file") : "");
@@ -33,7 +33,7 @@ void print_json(const ingest::ExportSummary& summary) {
     fmt::print("{}\n", json.dump(2));
 }
 
-void run(const Options& options) {
+void run(const ExportOptions& options) {
     Progress progress("export", "clips", options.json);
     const auto summary = ingest::export_clips(options.request, [&](std::size_t done, std::size_t all) {
         progress.update(static_cast<double>(done) / static_cast<double>(all), done);
@@ -52,7 +52,7 @@ std::string formats(const std::string& before) {
 }  // namespace
 
 void add_export(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ExportOptions>();
     auto& request = options->request;
     auto& selection = request.selection;
     auto* command = app.add_subcommand("export", "Write motions for other programs: .h5, .npz, .bvh, .glb");

@@ -15,13 +15,13 @@
 namespace actformer::cli {
 namespace {
 
-struct Options : MotionOptions {
+struct FeaturesOptions : MotionOptions {
     std::filesystem::path out;
     std::optional<std::uint64_t> initial_noise;
     bool json = false;
 };
 
-void print(const Options& options, const eval::FeaturesSummary& s) {
+void print(const FeaturesOptions& options, const eval::FeaturesSummary& s) {
     if (options.json) {
         nlohmann::ordered_json out = {{"file", options.out.string()},
                                       {"sequences", s.sequences},
@@ -38,7 +38,7 @@ void print(const Options& options, const eval::FeaturesSummary& s) {
         s.accuracy ? fmt::format("; {:.1f} % recognised as labelled", 100 * *s.accuracy) : "; no labels");
 }
 
-void run(const Options& options) {
+void run(const FeaturesOptions& options) {
     kernels::Device device(options.device);
     eval::FeatureExtractor extractor(device, options.recogniser, options.batch,
                                      eval::FeatureExtractor::Persons::together, options.initial_noise);
@@ -56,7 +56,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_features(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<FeaturesOptions>();
     auto* command = app.add_subcommand("features", "Features and logits of motions or of a dataset's split");
     add_motion_options(command, *options);
     command->add_option("-o,--out", options->out, "HDF5 file to make")->required()->type_name("FEATURES.h5");

@@ -12,12 +12,12 @@
 namespace actformer::cli {
 namespace {
 
-struct Options {
+struct GenerateOptions {
     model::GenerateRequest request;
     bool json = false;
 };
 
-void run(const Options& options) {
+void run(const GenerateOptions& options) {
     Progress progress("generate", "motions", options.json);
     const auto made = model::generate(options.request, [&](std::uint64_t done, std::uint64_t all) {
         progress.update(static_cast<double>(done) / static_cast<double>(all), done);
@@ -42,7 +42,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_generate(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<GenerateOptions>();
     auto& request = options->request;
     auto* command = app.add_subcommand("generate", "Generate motions with a trained generator");
     command->add_option("--generator", request.generator, "Folder of its training, or its weights")

@@ -15,7 +15,7 @@
 namespace actformer::cli {
 namespace {
 
-struct Options {
+struct ModelOptions {
     std::string config, data;
     std::vector<std::string> overrides;
     bool json = false;
@@ -48,7 +48,7 @@ std::int64_t parameters_of(const model::NetworkSummary& network) {
 }
 
 /// The configuration with its overrides, and what its networks are for.
-std::pair<model::Config, model::MotionSpec> read(model::Config config, const Options& options) {
+std::pair<model::Config, model::MotionSpec> read(model::Config config, const ModelOptions& options) {
     config.load(options.config);
     for (const auto& assignment : options.overrides) config.override_with(assignment);
     const auto data = options.data.empty() ? config.get<std::string>("data") : options.data;
@@ -57,7 +57,7 @@ std::pair<model::Config, model::MotionSpec> read(model::Config config, const Opt
     return {std::move(config), std::move(spec)};
 }
 
-std::vector<model::NetworkSummary> networks_of(const Options& options) {
+std::vector<model::NetworkSummary> networks_of(const ModelOptions& options) {
     const auto named = model::model_named_in(options.config);
     if (named != "recogniser" && named != "stgcn" && named != "gru") {
         const auto [config, spec] = read(model::read_generator_config(options.config), options);
@@ -110,7 +110,7 @@ void print_json(const std::vector<model::NetworkSummary>& networks) {
     fmt::print("{}\n", out.dump(2));
 }
 
-void run(const Options& options) {
+void run(const ModelOptions& options) {
     const auto networks = networks_of(options);
     options.json ? print_json(networks) : print_text(networks);
 }
@@ -118,7 +118,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_model(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ModelOptions>();
     auto* command =
         app.add_subcommand("model", "Print a configuration's layers, output shapes and parameter counts");
     command->add_option("config", options->config, "Configuration, as in model/configs")

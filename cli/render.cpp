@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using reports::JointMotion;
 
-struct Options {
+struct RenderOptions {
     std::vector<fs::path> inputs;
     fs::path output, body;
     reports::Wanted wanted;
@@ -25,7 +25,7 @@ struct Options {
     double fps = 0;
 };
 
-void render(const Options& options) {
+void render(const RenderOptions& options) {
     const auto kind = reports::picture_kind(options.output);
     { const Aside probe(options.output); }  // what cannot be written is said before the work, not after
     reports::Layout layout;
@@ -63,7 +63,7 @@ void render(const Options& options) {
 
 void add_render(CLI::App& app) {
     auto* command = app.add_subcommand("render", "Draw motions: a contact sheet (.png), a .gif or an .mp4");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderOptions>();
     command
         ->add_option("INPUT", options->inputs,
                      "Datasets, motions files in the public layout (.h5), or raw .skeleton files")

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ReportOptions {
     std::vector<fs::path> folders;
     fs::path out, csv, latex;
     std::string title = "ActFormer, measured";
@@ -33,7 +33,7 @@ std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
     return cells;
 }
 
-void run(const Options& options) {
+void run(const ReportOptions& options) {
     auto measured = reports::read_measured(options.folders);
     const auto tables = reports::fill_tables(measured);
     if (!options.out.empty()) {
@@ -54,7 +54,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_report(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReportOptions>();
     auto* command =
         app.add_subcommand("report", "Write the papers' tables, curves, scores and motions as one HTML file");
     command->add_option("folders", options->folders, "Folders that `actformer sweep` wrote")->required();

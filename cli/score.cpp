@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ScoreOptions {
     eval::ScoreMotions motions;
     eval::ScoreFeatures features;
     eval::GeneratedRequest generate;
@@ -91,7 +91,8 @@ std::vector<std::uint32_t> labels_to_generate(const eval::WindowsOptions& real) 
 }
 
 /// ACTOR's protocol: a motion for every clip of the real side, of its class, in 20 seeds; of more than 3,000 clips some.
-void ask_as_actor(const Options& options, const eval::WindowsOptions& real, eval::GeneratedRequest& wanted) {
+void ask_as_actor(const ScoreOptions& options, const eval::WindowsOptions& real,
+                  eval::GeneratedRequest& wanted) {
     constexpr std::uint32_t most = 3000;
     if (options.per_class_given)
         throw Error("--per-class: ACTOR's protocol makes a motion for every real clip; leave it out");
@@ -112,7 +113,7 @@ void ask_as_actor(const Options& options, const eval::WindowsOptions& real, eval
 }
 
 /// True where features files are scored, false where motions are.
-bool from_features(const Options& options) {
+bool from_features(const ScoreOptions& options) {
     const auto& m = options.motions;
     const auto& f = options.features;
     const bool features = !f.real.empty() || !f.generated.empty();
@@ -135,7 +136,7 @@ bool from_features(const Options& options) {
 }
 
 /// What the options ask for, with the sets of motions.
-eval::ScoreMotions prepared(const Options& options, const eval::GenerateSets& generate,
+eval::ScoreMotions prepared(const ScoreOptions& options, const eval::GenerateSets& generate,
                             const fs::path& work) {
     auto request = options.motions;
     request.work = work;
@@ -202,7 +203,8 @@ void print_text(const eval::Scored& scored) {
     for (const auto& warning : report.warnings) fmt::print("warning: {}\n", warning);
 }
 
-eval::Scored scored_by(const Options& options, const eval::GenerateSets& generate, const fs::path& work) {
+eval::Scored scored_by(const ScoreOptions& options, const eval::GenerateSets& generate,
+                       const fs::path& work) {
     if (from_features(options)) {
         auto request = options.features;
         request.options = options.scorer();
@@ -219,7 +221,7 @@ eval::Scored scored_by(const Options& options, const eval::GenerateSets& generat
     return scored;
 }
 
-void run(const Options& options, const eval::GenerateSets& generate) {
+void run(const ScoreOptions& options, const eval::GenerateSets& generate) {
     if (options.samples > 0 && (!options.as_actor() || options.generate.generator.empty()))
         throw Error("--samples is for --protocol actor with --generator; --per-class is for the others");
     WorkFolder work(options.out);
@@ -232,7 +234,7 @@ void run(const Options& options, const eval::GenerateSets& generate) {
         print_text(scored);
 }
 
-void add_generator_options(CLI::App* command, Options& options) {
+void add_generator_options(CLI::App* command, ScoreOptions& options) {
     auto& generate = options.generate;
     command
         ->add_option("--generator", generate.generator,
@@ -248,7 +250,7 @@ void add_generator_options(CLI::App* command, Options& options) {
                         "Where libtorch generates: cpu, cuda or cuda:N (default: cpu)");
 }
 
-void add_motion_options(CLI::App* command, Options& options) {
+void add_motion_options(CLI::App* command, ScoreOptions& options) {
     auto& request = options.motions;
     command->add_option("--recogniser", request.recogniser, "Folder of its training, or its weights")
         ->type_name("RUN|WEIGHTS.h5");
@@ -285,7 +287,7 @@ void add_motion_options(CLI::App* command, Options& options) {
 }  // namespace
 
 void add_score(CLI::App& app, const eval::GenerateSets& generate) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ScoreOptions>();
     auto* command =
         app.add_subcommand("score", "Accuracy, FIDs, diversity of generated motions beside real ones");
     add_motion_options(command, *options);

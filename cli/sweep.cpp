@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using reports::JobState;
 
-struct Options {
+struct SweepOptions {
     fs::path file, out;
     std::string program, only;
     unsigned jobs = 1;
@@ -33,7 +33,7 @@ std::string plain(const std::string& text) {
 }
 
 /// Every job, what it may cost, and with a dry run its commands.
-void print_plan(const reports::Plan& plan, const Options& options, const SweepJobs& jobs) {
+void print_plan(const reports::Plan& plan, const SweepOptions& options, const SweepJobs& jobs) {
     const auto in_slurm = options.status ? reports::jobs_in_slurm(options.out) : std::nullopt;
     const auto status = reports::statuses(plan, options.out);
     double sum = 0;
@@ -72,7 +72,7 @@ void print_plan(const reports::Plan& plan, const Options& options, const SweepJo
 }
 
 /// Rows that failed, each with its reason once. The number of them.
-std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, const Options& options) {
+std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, const SweepOptions& options) {
     const auto results = reports::results(sweep, plan, options.out);
     std::size_t done = 0, failed = 0;
     for (const auto& row : results["rows"]) {
@@ -88,7 +88,7 @@ std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, c
 }
 
 /// This command again for one job, for Slurm, which may run it on another machine with the same file system.
-std::vector<std::string> again(const Options& options, const reports::Job& job) {
+std::vector<std::string> again(const SweepOptions& options, const reports::Job& job) {
     return {(program_folder() / "actformer").string(),
             "sweep",
             fs::absolute(options.file).string(),
@@ -100,7 +100,7 @@ std::vector<std::string> again(const Options& options, const reports::Job& job) 
             job.id};
 }
 
-void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Options& options,
+void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const SweepOptions& options,
               const SweepJobs& jobs) {
     std::size_t done = 0;
     reports::SweepEvents events;
@@ -129,7 +129,7 @@ void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Opti
             options.file.string(), failed, counted(plan.jobs.size(), "job"));
 }
 
-void run(Options options) {
+void run(SweepOptions options) {
     if (options.program.empty()) options.program = (program_folder() / "actformer").string();
     options.out = fs::absolute(options.out).lexically_normal();
     const auto sweep = reports::read_sweep(options.file);
@@ -163,7 +163,7 @@ void run(Options options) {
 }  // namespace
 
 void add_sweep(CLI::App& app) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<SweepOptions>();
     auto* command = app.add_subcommand("sweep", "Train and score everything that a set of tables needs");
     command->add_option("sweep", options->file, "Datasets, recognisers and rows, as in reports/sweeps")
         ->required()

@@ -13,7 +13,7 @@
 namespace actformer::cli {
 namespace {
 
-struct Options : TrainingOptions {
+struct TrainGeneratorOptions : TrainingOptions {
     bool data_parallel = false;
 };
 
@@ -45,7 +45,7 @@ void print_text(const model::TrainingResult& result) {
                    text_of(result.best->values));
 }
 
-void run(const Options& options) {
+void run(const TrainGeneratorOptions& options) {
     const auto config = options.read(model::read_generator_config(options.config));
     TrainingDisplay display(config.get<std::int64_t>("epochs"));
     const auto result = model::train_generator(config, options.run, options.data_parallel, display.events());
@@ -64,7 +64,7 @@ std::string methods_named() {
 }  // namespace
 
 void add_train_generator(CLI::App& train) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<TrainGeneratorOptions>();
     auto* command = train.add_subcommand("generator", "Train a method to generate motions of given classes");
     add_training_options(command, *options);
     command->add_flag("--data-parallel", options->data_parallel,

@@ -1,6 +1,5 @@
 # The sources of a folder are compiled as one: what their headers bring along is parsed and instantiated once for all of them. Names in anonymous
-# namespaces of one folder must therefore differ. Sources with compile options of their own stay alone; so do those of model/ and cli/,
-# where names repeat.
+# namespaces of one folder must therefore differ. Sources with compile options of their own stay alone.
 # A build for editing, a source at a time: the presets debug and asan, or -DACTFORMER_TOGETHER=OFF.
 option(ACTFORMER_TOGETHER "Compile the sources of a folder as one" ON)
 set(MOST_TOGETHER 8)  # sources: two cores have several such pieces each to the end
