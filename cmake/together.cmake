@@ -2,7 +2,7 @@
 # namespaces of one folder must therefore differ. Sources with compile options of their own stay alone.
 # A build for editing, a source at a time: the presets debug and asan, or -DACTFORMER_TOGETHER=OFF.
 option(ACTFORMER_TOGETHER "Compile the sources of a folder as one" ON)
-set(MOST_TOGETHER 8)  # sources: two cores have several such pieces each to the end
+set(MOST_TOGETHER 12)  # sources: two cores have several such pieces each to the end
 
 function(compile_together target)
   if(NOT ACTFORMER_TOGETHER)

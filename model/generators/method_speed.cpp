@@ -33,7 +33,7 @@ Config config_of(const MethodSpeedRequest& request) {
     return config;
 }
 
-MotionSpec spec_of(const MethodSpeedRequest& request) {
+MotionSpec timed_spec(const MethodSpeedRequest& request) {
     return {ingest::Representation::limb, ingest::ntu25(), request.persons, request.classes, "speed"};
 }
 
@@ -73,7 +73,7 @@ struct MethodSpeed::Parts {
         : request(wanted),
           method(method_named(wanted.method, "--method")),
           config(config_of(wanted)),
-          spec(spec_of(wanted)),
+          spec(timed_spec(wanted)),
           clips(clips_of(wanted, spec, device)),
           learner(method.learner(config, spec, {clips, at::kCPU, processes})),
           maker(method.maker(config, spec, learner->weights(), "cpu")),

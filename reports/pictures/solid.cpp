@@ -9,10 +9,10 @@ namespace actformer::reports {
 namespace {
 
 /// A cone in sample coordinates, and what of it the samples ask again and again.
-struct Sampled {
+struct SampledBone {
     float ax, ay, az, dx, dy, dz, ra, dr, inverse;
 
-    Sampled(const Cone& cone, const Samples& samples) {
+    SampledBone(const Cone& cone, const Samples& samples) {
         const auto s = static_cast<double>(samples.per_pixel);
         const auto at = [&](double v, int corner) { return static_cast<float>((v - corner) * s - 0.5); };
         ax = at(cone.a.x, samples.area.x);
@@ -36,7 +36,7 @@ struct Sampled {
 /// Calls `use(row, column, offset x, offset y, squared distance, radius, axis nearness)` for the samples
 /// within `rim` of the cone.
 template <typename Use>
-void for_samples(const Sampled& cone, float rim, const cv::Size& size, Use use) {
+void for_samples(const SampledBone& cone, float rim, const cv::Size& size, Use use) {
     const float most = std::max(cone.ra, cone.ra + cone.dr) + rim;
     const auto clip = [](float v, int limit) {
         return static_cast<int>(std::clamp(v, -1.0F, static_cast<float>(limit)));
@@ -59,7 +59,7 @@ void for_samples(const Sampled& cone, float rim, const cv::Size& size, Use use) 
 }
 
 void fill(Samples& samples, const Cone& cone, const cv::Vec3f& colour) {
-    for_samples(Sampled(cone, samples), 0, samples.nearness.size(),
+    for_samples(SampledBone(cone, samples), 0, samples.nearness.size(),
                 [&](int row, int column, float ox, float oy, float distance2, float radius, float axis) {
                     const float rise = std::sqrt(std::max(0.0F, radius * radius - distance2));
                     float& nearest = samples.nearness.at<float>(row, column);
@@ -73,7 +73,7 @@ void fill(Samples& samples, const Cone& cone, const cv::Vec3f& colour) {
 /// Gaps: where `cone` ends in front of something that lies deeper than the limb is thick, a rim of it turns
 /// to paper. The limbs that meet it at a joint lie level with it there, and stay.
 void part(Samples& samples, const Cone& cone, float rim, const cv::Vec3f& paper) {
-    for_samples(Sampled(cone, samples), rim, samples.nearness.size(),
+    for_samples(SampledBone(cone, samples), rim, samples.nearness.size(),
                 [&](int row, int column, float, float, float distance2, float radius, float axis) {
                     if (distance2 < radius * radius) return;
                     const float behind = samples.nearness.at<float>(row, column);

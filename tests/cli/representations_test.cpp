@@ -20,7 +20,7 @@ using ingest::Representation;
 
 namespace {
 
-constexpr std::uint32_t frames = 20;
+constexpr std::uint32_t window = 20;
 
 /// A folder with the configurations of a recogniser and of a generator for the arms in one representation.
 struct Chain {
@@ -49,7 +49,7 @@ struct Chain {
   private:
     std::string configuration(const std::string& model, const std::string& more) const {
         return fmt::format("model: {}\ndata: {}\ntrain_split: s/train\nframes: {}\nthreads: 1\n{}", model,
-                           data(), frames, more);
+                           data(), window, more);
     }
 };
 
@@ -109,7 +109,7 @@ void expect_motions(const Chain& chain) {
     ASSERT_EQ(file.names().size(), 12U);
     for (const auto& name : file.names()) {
         const auto motion = file.read(name);
-        EXPECT_EQ(motion.frames, frames);
+        EXPECT_EQ(motion.frames, window);
         EXPECT_EQ(motion.nodes, chain.how.nodes(ArmsClip::topology()));
         expect_finished(motion, chain.how);
     }
@@ -119,11 +119,11 @@ void expect_scores_and_pictures(const Chain& chain) {
     const auto scores =
         run_actformer("score --recogniser " + chain.at("recogniser") + " --real " + chain.data() +
                       " --split s/train --generated " + chain.at("motions.h5") +
-                      fmt::format(" --window {} --json 2>/dev/null", frames));
+                      fmt::format(" --window {} --json 2>/dev/null", window));
     ASSERT_EQ(scores.exit, 0) << scores.output;
     EXPECT_NE(scores.output.find("fid"), std::string::npos) << scores.output;
     chain.run("features --recogniser " + chain.at("recogniser") + " " + chain.data() + " -o " +
-              chain.at("features.h5") + fmt::format(" --window {}", frames));
+              chain.at("features.h5") + fmt::format(" --window {}", window));
     for (const auto& input : {chain.at("motions.h5"), chain.data()}) {
         chain.run("render " + input + " --count 3 --size 60 -o " + chain.at("drawn.png"));
         EXPECT_EQ(read_file(chain.dir / "drawn.png").substr(1, 3), "PNG");
@@ -170,7 +170,7 @@ std::string motions_in(const TempDir& dir, Representation how, bool described) {
     ingest::MotionsWriter writer(path);
     if (described) writer.describe(ingest::subjects_of(ingest::Dataset(arms_in(how))));
     for (std::uint32_t i = 0; i < 4; ++i)
-        writer.add(fmt::format("A001_{}", i), ArmsClip(0, i, frames).in(how));
+        writer.add(fmt::format("A001_{}", i), ArmsClip(0, i, window).in(how));
     writer.finish();
     return path.string();
 }
