@@ -190,13 +190,13 @@ void Writer::attribute(const std::string& name, const std::vector<std::string>& 
     attribute_from(name, of, string_type(all.size).get(), {values.size()}, all.text.data());
 }
 
-void Writer::image(const std::function<void(std::string_view)>& use) {
+std::string_view Writer::image() {
     void* memory = nullptr;  // of the file itself: a copy would cost as much again
     hsize_t size = 0;
     if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 ||
         H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &memory) < 0 || H5Fget_filesize(file_.get(), &size) < 0)
         throw Error("HDF5: a file in memory cannot be read back; is there enough memory?");
-    use({*static_cast<const char**>(memory), size});
+    return {*static_cast<const char**>(memory), size};
 }
 
 }  // namespace actformer::hdf5

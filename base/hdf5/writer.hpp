@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -54,8 +53,8 @@ class Writer {
     /// The checksum of all that was written so far, as Reader::contents() finds it. Not for what write_rows wrote.
     std::string contents() const { return contents_.checksum(); }
 
-    /// Calls `use` with the bytes of a file in memory, which begin at a page.
-    void image(const std::function<void(std::string_view)>& use);
+    /// The bytes of a file in memory, which begin at a page; until it is written to again or goes.
+    std::string_view image();
 
     /// Closes a file on disk. False where not all of it could be written.
     bool finish();

@@ -35,9 +35,8 @@ std::uint64_t ShardBuilder::bytes() const {
     return numbers * sizeof(float);
 }
 
-void ShardBuilder::image(hdf5::FileMemory& memory, const std::string& settings,
-                         const std::string& fingerprint,
-                         const std::function<void(std::string_view, const std::string&)>& use) {
+ShardImage ShardBuilder::image(hdf5::FileMemory& memory, const std::string& settings,
+                               const std::string& fingerprint) {
     std::vector<std::span<const float>> motion;
     std::vector<float> bones;
     for (const auto& piece : pieces_) {
@@ -64,7 +63,9 @@ void ShardBuilder::image(hdf5::FileMemory& memory, const std::string& settings,
         file.write_strings("clip/" + header_->fields[f],
                            column<std::string>(clips_, [f](auto& c) { return c.fields[f]; }));
     file.write<float>("clip/bone_length", {n, p, joints}, bones);
-    file.image([&](std::string_view bytes) { use(bytes, file.contents()); });
+    const auto bytes = file.image();
+    auto contents = file.contents();
+    return {std::move(file), bytes, std::move(contents)};
 }
 
 std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHeader& header,

@@ -10,15 +10,22 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "base/hdf5/file_memory.hpp"
+#include "base/hdf5/writer.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "kernels/cleaning.hpp"
 
 namespace actformer::ingest {
+
+/// A shard's file in memory.
+struct ShardImage {
+    hdf5::Writer file;
+    std::string_view bytes;  ///< of the file
+    std::string contents;    ///< their checksum
+};
 
 /// Gathers clips in memory and becomes a file in one go.
 class ShardBuilder {
@@ -33,10 +40,9 @@ class ShardBuilder {
     std::uint64_t bytes() const;  ///< of motion, about
     bool empty() const { return clips_.empty(); }
 
-    /// Makes the file in `memory` and calls `use` with its bytes and the checksum of its contents. The file says what it was made from.
-    /// The motions are let go as soon as they are in the file, so that the next shard can have their memory: only once, therefore.
-    void image(hdf5::FileMemory& memory, const std::string& settings, const std::string& fingerprint,
-               const std::function<void(std::string_view bytes, const std::string& contents)>& use);
+    /// Makes the file in `memory`. It says what it was made from. The motions are let go as soon as they are in the file, so that the
+    /// next shard can have their memory: only once, therefore.
+    ShardImage image(hdf5::FileMemory& memory, const std::string& settings, const std::string& fingerprint);
 
   private:
     const DatasetHeader* header_;

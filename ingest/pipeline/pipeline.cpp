@@ -321,12 +321,10 @@ class Ingest {
         const auto file = folder_of(dataset) / shard_name(shard_count_[dataset]++);
         ShardEntry entry{file.string(), {}, 0, shard.clips(), shard.frames()};
         fs::create_directories((workplace.data() / file).parent_path());
-        shard.image(shard_memory_, format_.settings(), fingerprint,
-                    [&](std::string_view bytes, const std::string& contents) {
-                        write_whole(workplace.data() / file, bytes);
-                        entry.checksum = contents;
-                        entry.bytes = bytes.size();
-                    });
+        const auto image = shard.image(shard_memory_, format_.settings(), fingerprint);
+        write_whole(workplace.data() / file, image.bytes);
+        entry.checksum = image.contents;
+        entry.bytes = image.bytes.size();
         return entry;
     }
 

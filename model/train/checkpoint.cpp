@@ -78,9 +78,8 @@ void save_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
     file.write_strings(progress, {checkpoint.state.dump()});
     file.attribute(steps_done, static_cast<std::int64_t>(checkpoint.step));
     file.attribute("program", std::string("actformer " ACTFORMER_VERSION));
-    file.image([&](std::string_view image) {
-        write_whole(checkpoint_path(folder, checkpoint.step), std::string(image) + last_line(image));
-    });
+    const auto image = file.image();
+    write_whole(checkpoint_path(folder, checkpoint.step), std::string(image) + last_line(image));
     const auto files = checkpoints_in(folder);
     for (std::size_t i = 2; i < files.size(); ++i) fs::remove(files[i]);
 }

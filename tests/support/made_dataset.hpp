@@ -41,11 +41,10 @@ inline void write_dataset(const std::filesystem::path& folder, const ingest::Dat
     ingest::ShardEntry entry{ingest::shard_name(0), {}, 0, shard.clips(), shard.frames()};
     std::filesystem::create_directories(folder);
     hdf5::FileMemory memory;
-    shard.image(memory, "made by a test", "none", [&](std::string_view bytes, const std::string& contents) {
-        write_whole(folder / entry.file, bytes);
-        entry.checksum = contents;
-        entry.bytes = bytes.size();
-    });
+    const auto image = shard.image(memory, "made by a test", "none");
+    write_whole(folder / entry.file, image.bytes);
+    entry.checksum = image.contents;
+    entry.bytes = image.bytes.size();
     write_whole(folder / "dataset.json", ingest::to_text({header, "made by a test", "none", {entry}, {}}));
 }
 

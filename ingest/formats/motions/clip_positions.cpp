@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 #include "base/text/printable.hpp"
 
@@ -49,18 +50,22 @@ class Reading {
         turn(count * body_);
     }
 
-    /// False where a number of pose_ is missing or beyond reach, or all of a body are zero.
-    bool all_seen(std::uint64_t count) const {
-        std::int64_t beyond = 0;  // as wide as the numbers and without branches: it runs in vectors
-        for (std::size_t i = 0; i < count * body_; ++i) beyond |= !(std::abs(pose_[i]) < farthest);  // NaN is
+    /// False where a number of the bodies is missing or beyond reach, or all of a body are zero.
+    template <typename Number>
+    bool all_seen(const Number* poses, std::uint64_t count) const {
+        std::conditional_t<sizeof(Number) == 4, std::int32_t, std::int64_t> beyond =
+            0;  // as wide as the numbers and without branches: it runs in vectors
+        for (std::size_t i = 0; i < count * body_; ++i)
+            beyond |= !(std::abs(poses[i]) < static_cast<Number>(farthest));  // NaN is
         if (beyond) return false;
         for (std::uint64_t i = 0; i < count; ++i)
-            if (all_zero(&pose_[i * body_])) return false;
+            if (all_zero(poses + i * body_)) return false;
         return true;
     }
 
-    bool all_zero(const double* body) const {
-        return std::all_of(body, body + body_, [](double x) { return x == 0; });
+    template <typename Number>
+    bool all_zero(const Number* body) const {
+        return std::all_of(body, body + body_, [](Number x) { return x == 0; });
     }
 
     /// So many numbers of pose_ from raw_. All three axes in one loop, whose stores then follow one another.
@@ -82,15 +87,24 @@ class Reading {
     /// Straight from the array; false, and nothing done, where not every body is whole in every frame.
     bool read_all_seen() {
         begin();
+        const auto* upright = in_metres_upright() ? array_.as_it_lies(clip_, first_) : nullptr;
         const auto bodies = frames_ * request_.persons;
+        const auto taken = [&](const auto* poses, std::uint64_t count) {
+            if (!all_seen(poses, count)) return false;
+            add(poses, count);
+            return true;
+        };
         for (std::uint64_t body = 0; body < bodies; body += bodies_at_once) {
             const auto count = std::min(bodies_at_once, bodies - body);
-            load(body, count);
-            if (!all_seen(count)) return false;
-            add(pose_.data(), count);
+            if (!upright) load(body, count);
+            if (!(upright ? taken(upright + body * body_, count) : taken(pose_.data(), count))) return false;
         }
         finish();
         return true;
+    }
+
+    bool in_metres_upright() const {
+        return request_.scale == 1 && request_.axes == std::array<int, 3>{1, 2, 3};
     }
 
     std::variant<ClipPositions, Rejection> read_with_gaps() {
@@ -199,7 +213,8 @@ class Reading {
     }
 
     /// The next bodies, persons of those kept.
-    void add(const double* poses, std::uint64_t count) {
+    template <typename Number>
+    void add(const Number* poses, std::uint64_t count) {
         if (out_.values.empty()) std::copy(poses, poses + 3, origin_.begin());
         for (std::uint64_t i = 0; i < count; ++i) {
             place(poses + i * body_, &placed_[i * body_]);
@@ -210,24 +225,31 @@ class Reading {
     }
 
     /// Joints from their parents or from the origin, joint 0 being the root.
-    void place(const double* pose, float* to) const {
+    template <typename Number>
+    void place(const Number* pose, float* to) const {
         const int* parents = request_.topology->parents.data();
         put(pose, origin_.data(), to);
-        for (std::size_t j = 1; j < joints_; ++j)
-            put(pose + 3 * j, request_.limbs ? pose + std::ptrdiff_t{3} * parents[j] : origin_.data(),
-                to + 3 * j);
+        if (request_.limbs)
+            for (std::size_t j = 1; j < joints_; ++j)
+                put(pose + 3 * j, pose + std::ptrdiff_t{3} * parents[j], to + 3 * j);
+        else
+            for (std::size_t j = 1; j < joints_; ++j) put(pose + 3 * j, origin_.data(), to + 3 * j);
     }
 
-    static void put(const double* joint, const double* from, float* to) {
+    /// The difference of two float32 is the same whether it is rounded once or by way of a double (Figueroa 1995).
+    template <typename Number, typename From>
+    static void put(const Number* joint, const From* from, float* to) {
         for (std::size_t d = 0; d < 3; ++d) to[d] = static_cast<float>(joint[d] - from[d]);
     }
 
-    void add_lengths(const double* pose) {
+    template <typename Number>
+    void add_lengths(const Number* pose) {
         double* lengths = &lengths_[added_++ % request_.persons * joints_];
         for (std::size_t j = 1; j < joints_; ++j) {
-            const double *joint = pose + 3 * j,
+            const Number *joint = pose + 3 * j,
                          *parent = pose + std::ptrdiff_t{3} * request_.topology->parents[j];
-            lengths[j] += std::hypot(joint[0] - parent[0], joint[1] - parent[1], joint[2] - parent[2]);
+            const auto along = [&](std::size_t d) { return double{joint[d]} - double{parent[d]}; };
+            lengths[j] += std::hypot(along(0), along(1), along(2));
         }
     }
 

@@ -1,6 +1,7 @@
 #include "ingest/formats/motions/joint_array.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/error.hpp"
 #include "base/text/printable.hpp"
@@ -91,6 +92,17 @@ const char* JointArray::end_of_clip(std::uint64_t clip) const {
     const auto largest = std::max({of_frame_, of_person_, of_joint_, of_coordinate_});
     return array_->values.data() +
            (has_clips_ && of_clip_ > largest ? (clip + 1) * of_clip_ * array_->size : 0);
+}
+
+const float* JointArray::as_it_lies(std::uint64_t clip, std::uint64_t frame) const {
+    const auto body = std::uint64_t{joints_} * 3;
+    const bool floats = array_->kind == NumpyArray::Kind::real && array_->size == sizeof(float) &&
+                        !array_->big_endian && std::endian::native == std::endian::little;
+    const bool in_order = of_coordinate_ == 1 && of_joint_ == 3 && (persons_ == 1 || of_person_ == body) &&
+                          (frames_ == 1 || of_frame_ == persons_ * body);
+    const auto* at = array_->values.data() + (clip * of_clip_ + frame * of_frame_) * sizeof(float);
+    const bool aligned = reinterpret_cast<std::uintptr_t>(at) % alignof(float) == 0;
+    return floats && in_order && aligned ? reinterpret_cast<const float*>(at) : nullptr;
 }
 
 void JointArray::pose(std::uint64_t clip, std::uint64_t frame, std::uint64_t person, double* to) const {

@@ -27,6 +27,9 @@ class JointArray {
     /// Where the numbers end that nobody needs once this clip and those before it are read.
     const char* end_of_clip(std::uint64_t clip) const;
 
+    /// The bodies of a clip from `frame` on, (frames, persons, joints, 3), where they lie in memory as just that; else null.
+    const float* as_it_lies(std::uint64_t clip, std::uint64_t frame) const;
+
     /// (joints, 3) positions of a body.
     void pose(std::uint64_t clip, std::uint64_t frame, std::uint64_t person, double* to) const;
 

@@ -39,7 +39,7 @@ struct Contents : testing::Test {
         writer.write<std::uint64_t>("clip/offset", {3}, std::vector<std::uint64_t>{0, 100, 200});
         writer.write_strings("clip/name", {"one", "second", ""});
         writer.write<float>("nothing", {0, 5}, std::vector<float>{});
-        writer.image([&](std::string_view bytes) { write_file(path, std::string(bytes)); });
+        write_file(path, std::string(writer.image()));
         written = writer.contents();
     }
     std::string read() const { return hdf5::Reader(path).contents(); }

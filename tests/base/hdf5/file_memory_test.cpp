@@ -15,9 +15,7 @@ std::string image_of(hdf5::Writer&& file, std::size_t rows) {
     for (std::size_t i = 0; i < motion.size(); ++i) motion[i] = static_cast<float>(i + rows) * 0.5F;
     file.write_pieces("motion", {rows, 2, 3}, {motion}, 256);
     file.write_strings("clip/name", std::vector<std::string>(rows / 10, std::string(rows % 40, 'x')));
-    std::string image;
-    file.image([&](std::string_view bytes) { image = bytes; });
-    return image;
+    return std::string(file.image());
 }
 
 }  // namespace

@@ -31,10 +31,15 @@ struct Array {
     }
 
     std::variant<ClipPositions, Rejection> read(PositionsRequest request, std::uint64_t clip = 0) {
+        return read_from(reinterpret_cast<const char*>(numbers.data()), sizeof(double), request, clip);
+    }
+    /// From memory that holds these numbers as floating point of `size` bytes.
+    std::variant<ClipPositions, Rejection> read_from(const char* from, std::size_t size,
+                                                     PositionsRequest request, std::uint64_t clip = 0) const {
         NumpyArray array;
-        array.size = sizeof(double);
+        array.size = size;
         array.shape = shape;
-        array.values = {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double)};
+        array.values = {from, numbers.size() * size};
         request.topology = &chain;
         return read_positions(JointArray(array, joints, "ntpkc"), clip, request);
     }
@@ -100,6 +105,38 @@ TEST(ClipPositions, AreTurnedAndScaled) {
     EXPECT_NEAR(to[0], 0.01 * (from[0] - origin[0]), 1e-8);
     EXPECT_NEAR(to[1], 0.01 * (from[2] - origin[2]), 1e-8);
     EXPECT_NEAR(to[2], -0.01 * (from[1] - origin[1]), 1e-8);
+}
+
+// float32 is read where it lies; an odd place, a scale and gaps take the way of all others. The same numbers give the same bits.
+TEST(ClipPositions, AreTheSameHoweverTheNumbersAreStored) {
+    for (const bool gap : {false, true})
+        for (const bool limbs : {true, false}) {
+            Array array(2, 37, 2, 3);
+            std::vector<float> floats(array.numbers.begin(), array.numbers.end());
+            floats[5] = 1e-30F;  // beside a number of 1: more bits apart than a double has
+            floats[8] = 1;
+            array.numbers.assign(floats.begin(), floats.end());
+            if (gap) {
+                array.forget(20, 1);
+                floats.assign(array.numbers.begin(), array.numbers.end());
+            }
+            auto request = of_persons(2, limbs);
+            request.start = 3;
+            request.end = 31;
+            std::string odd(1, ' ');
+            odd.append(reinterpret_cast<const char*>(floats.data()), floats.size() * sizeof(float));
+            for (const std::uint64_t clip : {0, 1}) {
+                const auto wanted = array.taken(request, clip);
+                const auto* aligned = reinterpret_cast<const char*>(floats.data());
+                for (const char* from : {aligned, static_cast<const char*>(odd.data()) + 1}) {
+                    const auto read = array.read_from(from, sizeof(float), request, clip);
+                    ASSERT_TRUE(std::holds_alternative<ClipPositions>(read));
+                    EXPECT_EQ(std::get<ClipPositions>(read).values, wanted.values);
+                    EXPECT_EQ(std::get<ClipPositions>(read).bone_length, wanted.bone_length);
+                    EXPECT_EQ(std::get<ClipPositions>(read).filled, gap && clip == 0);
+                }
+            }
+        }
 }
 
 TEST(ClipPositions, FillGapsJointByJoint) {
