@@ -10,6 +10,7 @@
 #include "cli/format.hpp"
 #include "reports/page/exports.hpp"
 #include "reports/page/page.hpp"
+#include "reports/page/row_tables.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -35,15 +36,17 @@ std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
 
 void run(const ReportOptions& options) {
     auto measured = reports::read_measured(options.folders);
-    const auto tables = reports::fill_tables(measured);
+    auto tables = reports::fill_tables(measured);
+    const auto figures = measured_cells(tables);
+    const reports::RowTables rows(measured);
+    tables.insert(tables.end(), rows.filled().begin(), rows.filled().end());
     if (!options.out.empty()) {
         const reports::DetailOptions details{static_cast<std::size_t>(1e6 * options.motion_megabytes)};
         const auto data = reports::details(measured, details);
         const auto html = reports::page(options.title, tables, measured.notices, data);
         write_whole(options.out, html);
-        fmt::print(stderr, "{}: {} measured in {}, {}\n", options.out.string(),
-                   counted(measured_cells(tables), "figure"), counted(measured.rows.size(), "row"),
-                   bytes(html.size()));
+        fmt::print(stderr, "{}: {} measured in {}, {}\n", options.out.string(), counted(figures, "figure"),
+                   counted(measured.rows.size(), "row"), bytes(html.size()));
     }
     if (!options.csv.empty()) write_whole(options.csv, reports::to_csv(tables));
     if (!options.latex.empty()) write_whole(options.latex, reports::to_latex(tables));

@@ -170,14 +170,17 @@ std::string html_note(const std::vector<FilledTable>& tables, const std::vector<
 }
 
 std::string html_links(const std::vector<FilledTable>& tables) {
-    std::string out;
+    const std::string word = "Table ";
+    std::string papers, rows;
     for (const auto& table : tables) {
-        const std::string word = "Table ", title = table.paper->title;
-        out +=
-            fmt::format("{}<a href=\"#{}\" aria-label=\"{}\">{}</a>", out.empty() ? "" : " ", table.paper->id,
-                        escaped(title), escaped(title.starts_with(word) ? title.substr(word.size()) : title));
+        const std::string title = table.paper->title;
+        const bool numbered = title.starts_with(word);
+        if (!numbered && !rows.empty()) continue;  // the tables of all rows stand together
+        (numbered ? papers : rows) +=
+            fmt::format(" <a href=\"#{}\" aria-label=\"{}\">{}</a>", table.paper->id, escaped(title),
+                        numbered ? escaped(title.substr(word.size())) : "all rows");
     }
-    return out;
+    return papers + rows;
 }
 
 std::string html_tables(const std::vector<FilledTable>& tables) {

@@ -40,18 +40,6 @@ CellState state_of(const MeasuredRow& row) {
     return row.status == "failed" ? CellState::failed : CellState::waiting;
 }
 
-void fill(CellGroup& group, const PaperColumns& columns, const MeasuredRow& row) {
-    group.row = &row;
-    group.state = state_of(row);
-    for (std::size_t m = 0; m < columns.metrics.size(); ++m) {
-        const auto values = repeats_of(row, columns.metrics[m]);
-        auto& figures = group.figures[m];
-        figures.repeats = values.size();
-        figures.measured = values.empty() ? std::nullopt : std::optional(eval::interval(values));
-        figures.real = real_value(row, columns.metrics[m]);
-    }
-}
-
 FilledTable empty_table(const PaperTable& paper) {
     FilledTable table{&paper, {}};
     for (const auto& row : paper.rows) {
@@ -102,12 +90,6 @@ void mark_best(Column column) {
         column, printed, [&](const Figures&) { return printed_real; }, &Figures::paper_best);
 }
 
-void mark_best(FilledTable& table) {
-    for (std::size_t c = 0; c < table.paper->columns.size(); ++c)
-        for (std::size_t m = 0; m < table.paper->columns[c].metrics.size(); ++m)
-            mark_best(Column{table, c, m});
-}
-
 /// What the scores say of where they come from.
 void add_score_lines(const Json& scored, std::vector<std::string>& lines) {
     const auto& from = loose::member(scored, "provenance");
@@ -123,6 +105,24 @@ void add_score_lines(const Json& scored, std::vector<std::string>& lines) {
 }
 
 }  // namespace
+
+CellGroup measured_group(const PaperColumns& columns, const MeasuredRow& row) {
+    CellGroup group{state_of(row), &row, std::vector<Figures>(columns.metrics.size())};
+    for (std::size_t m = 0; m < columns.metrics.size(); ++m) {
+        const auto values = repeats_of(row, columns.metrics[m]);
+        auto& figures = group.figures[m];
+        figures.repeats = values.size();
+        figures.measured = values.empty() ? std::nullopt : std::optional(eval::interval(values));
+        figures.real = real_value(row, columns.metrics[m]);
+    }
+    return group;
+}
+
+void mark_best(FilledTable& table) {
+    for (std::size_t c = 0; c < table.paper->columns.size(); ++c)
+        for (std::size_t m = 0; m < table.paper->columns[c].metrics.size(); ++m)
+            mark_best(Column{table, c, m});
+}
 
 std::vector<FilledTable> fill_tables(Measured& measured, const std::vector<PaperTable>& papers) {
     std::vector<FilledTable> tables;
@@ -142,7 +142,9 @@ std::vector<FilledTable> fill_tables(Measured& measured, const std::vector<Paper
                 measured.notices.push_back(
                     fmt::format("{} is filled by ‘{}’ of {} and by ‘{}’ of {}: the latter is shown", name,
                                 group.row->name, group.row->sweep, row.name, row.sweep));
-            fill(group, cell.table->columns[cell.columns], row);
+            const auto printed = std::move(group.figures);
+            group = measured_group(cell.table->columns[cell.columns], row);
+            for (std::size_t m = 0; m < printed.size(); ++m) group.figures[m].paper = printed[m].paper;
         }
     for (auto& table : tables) mark_best(table);
     return tables;

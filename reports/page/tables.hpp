@@ -35,6 +35,12 @@ struct FilledTable {
     std::vector<std::vector<CellGroup>> rows;  ///< (paper rows, datasets)
 };
 
+/// What a row has measured of a table's columns.
+CellGroup measured_group(const PaperColumns& columns, const MeasuredRow& row);
+
+/// Marks the best of every column, measured and printed.
+void mark_best(FilledTable& table);
+
 /// Of all tables, whether anything fills them or not. Points into `papers` and into `measured`, whose notices get a line for every cell that is not
 /// one, or that two rows fill: the one read last counts.
 std::vector<FilledTable> fill_tables(Measured& measured,

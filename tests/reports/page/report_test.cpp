@@ -11,6 +11,7 @@
 #include "reports/page/packed.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/projection.hpp"
+#include "reports/page/row_tables.hpp"
 #include "tests/reports/motions/made_motions.hpp"
 
 namespace actformer::reports {
@@ -94,6 +95,40 @@ TEST_F(Report, TheBestOfAColumnIsTheHighestAccuracyAndTheLowestDistance) {
     EXPECT_TRUE(gaussian.figures[0].best);
     EXPECT_FALSE(gaussian.figures[1].best);
     EXPECT_TRUE(full.figures[0].paper_best) << "the paper's best is marked on its own";
+}
+
+TEST_F(Report, RowsThatWereScoredAgainstTheSameMotionsStandSideBySide) {
+    const auto with = [](Json scored, double tremble) {
+        scored["limb_acceleration"] = {{"mean", tremble}, {"repeats", {tremble}}};
+        scored["real"] = {{"accuracy", 0.9}, {"limb_acceleration", 1}};
+        scored["floor"] = {{"fid_mean", 0.5}};
+        return scored;
+    };
+    add("full", "table3/full/NTU-1P", {with(scores({0.5, 0.7}, {4, 2}), 1.5)});
+    add("mine", "", {with(scores({0.4}, {9}), 0.9)})["fills"] = Json::array();
+    add("elsewhere", "", {scores({0.4}, {9})})["dataset"] = "two";
+    add("not run", "", {})["status"] = "waiting";
+    const auto measured = read();
+    const RowTables tables(measured);
+    ASSERT_EQ(tables.filled().size(), 2U);
+    const auto& one = tables.filled()[0];
+    ASSERT_EQ(one.paper->columns[0].metrics.size(), 3U) << "accuracy, FIDm and tremble";
+    ASSERT_EQ(one.rows.size(), 3U) << "two rows and real motions";
+    const auto figures = [&](std::size_t row, std::size_t metric) {
+        return one.rows[row][0].figures[metric];
+    };
+    EXPECT_DOUBLE_EQ(figures(0, 0).measured->mean, 60);
+    EXPECT_DOUBLE_EQ(figures(2, 0).measured->mean, 90) << "real motions, in per cent";
+    EXPECT_DOUBLE_EQ(figures(2, 1).measured->mean, 0.5) << "real against real";
+    EXPECT_TRUE(figures(0, 0).best && figures(0, 1).best && figures(1, 2).best);
+    EXPECT_FALSE(figures(2, 0).best || figures(2, 1).best || figures(2, 2).best);
+    EXPECT_EQ(tables.filled()[1].rows.size(), 2U);
+    const auto html = html_tables(tables.filled());
+    EXPECT_NE(html.find("Rows on one"), std::string::npos);
+    EXPECT_NE(html.find("limb tremble"), std::string::npos);
+    EXPECT_NE(to_csv(tables.filled()).find("\nrows1,real motions,one,fid_mean,measured,0.5,,0,,,\n"),
+              std::string::npos);
+    EXPECT_NE(to_latex(tables.filled()).find("real motions & 90.00 & 0.50"), std::string::npos);
 }
 
 TEST_F(Report, WhatShouldBeNearRealIsMarkedByItsDistanceFromReal) {

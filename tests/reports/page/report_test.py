@@ -141,7 +141,7 @@ def check_tips(browser):
         raise Failed("40 tabs reach no measured cell")
     for where in ("first", "last"):
         if where == "last":
-            browser.run("[...document.querySelectorAll('td.measured')].at(-1).focus()")
+            browser.run("[...document.querySelectorAll('td.measured[tabindex]')].at(-1).focus()")
         tip = browser.run("""const tip = document.activeElement.querySelector(".tip"), box = tip.getBoundingClientRect();
             const at = (x, y) => { tip.style.pointerEvents = "auto"; const hit = document.elementFromPoint(x, y);
                 tip.style.pointerEvents = ""; return tip.contains(hit); };

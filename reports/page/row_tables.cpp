@@ -1,0 +1,96 @@
+#include "reports/page/row_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "base/text/loose_json.hpp"
+
+namespace actformer::reports {
+namespace {
+
+using Rows = std::vector<const MeasuredRow*>;
+
+/// Those with scores, by what they were scored against, in the order in which they come.
+std::vector<Rows> held_together(const Measured& measured) {
+    using Against = std::tuple<std::string, std::string, std::string>;
+    std::map<Against, std::size_t> places;
+    std::vector<Rows> out;
+    for (const auto& row : measured.rows) {
+        if (!row.shown()) continue;
+        const auto [place, fresh] = places.emplace(Against{row.sweep, row.dataset, row.split}, out.size());
+        if (fresh) out.emplace_back();
+        out[place->second].push_back(&row);
+    }
+    return out;
+}
+
+bool has(const MeasuredRow& row, std::string_view metric) {
+    return std::ranges::any_of(row.runs, [&](const MeasuredRun& run) {
+        return loose::member(loose::member(run.scored, std::string(metric).c_str()), "mean").is_number();
+    });
+}
+
+std::vector<Metric> metrics_of(const Rows& rows) {
+    std::vector<Metric> out;
+    for (const auto& metric : eval::metrics())
+        if (std::ranges::any_of(rows, [&](const auto* row) { return has(*row, metric.name); }))
+            out.push_back(scored_metric(std::string(metric.name)));
+    return out;
+}
+
+/// What the scores of real motions, or of real ones against others, say; the mean over all runs that tell.
+std::optional<double> of_real_motions(const Rows& rows, const Metric& metric) {
+    double sum = 0, count = 0;
+    for (const auto* row : rows)
+        for (const auto& run : row->runs)
+            for (const char* side : {"real", "floor"})
+                if (const auto& value = loose::member(loose::member(run.scored, side), metric.name.c_str());
+                    value.is_number()) {
+                    sum += metric.scale * value.get<double>();
+                    ++count;
+                    break;
+                }
+    return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
+PaperTable empty_table(const Rows& rows, std::size_t number) {
+    PaperTable out;
+    out.id = fmt::format("rows{}", number);
+    out.title = fmt::format("Rows on {}", rows[0]->dataset);
+    out.caption = fmt::format("All that was scored, split {}", rows[0]->split);
+    out.source =
+        fmt::format("Sweep {}: means over seeds and repeats with their 95 % intervals", rows[0]->sweep);
+    out.columns = {{rows[0]->dataset, metrics_of(rows)}};
+    const std::vector<std::vector<PaperFigure>> none{std::vector<PaperFigure>(out.columns[0].metrics.size())};
+    for (const auto* row : rows) out.rows.push_back({row->name, none});
+    out.real = out.rows.size();
+    out.rows.push_back({"real motions", none});
+    return out;
+}
+
+CellGroup real_group(const Rows& rows, const PaperColumns& columns) {
+    CellGroup out;
+    out.state = CellState::measured;
+    for (const auto& metric : columns.metrics) {
+        auto& figures = out.figures.emplace_back();
+        if (const auto value = of_real_motions(rows, metric)) figures.measured = {*value, std::nullopt};
+    }
+    return out;
+}
+
+}  // namespace
+
+RowTables::RowTables(const Measured& measured) {
+    for (const auto& rows : held_together(measured)) {
+        const auto& table = tables_.emplace_back(empty_table(rows, tables_.size() + 1));
+        auto& filled = filled_.emplace_back(FilledTable{&table, {}});
+        for (const auto* row : rows) filled.rows.push_back({measured_group(table.columns[0], *row)});
+        filled.rows.push_back({real_group(rows, table.columns[0])});
+        mark_best(filled);
+    }
+}
+
+}  // namespace actformer::reports
