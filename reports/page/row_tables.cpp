@@ -36,8 +36,10 @@ bool has(const MeasuredRow& row, std::string_view metric) {
 std::vector<Metric> metrics_of(const Rows& rows) {
     std::vector<Metric> out;
     for (const auto& metric : eval::metrics())
-        if (std::ranges::any_of(rows, [&](const auto* row) { return has(*row, metric.name); }))
+        if (std::ranges::any_of(rows, [&](const auto* row) { return has(*row, metric.name); })) {
             out.push_back(scored_metric(std::string(metric.name)));
+            if (!metric.unit.empty()) out.back().heading += fmt::format(" {}", metric.unit);
+        }
     return out;
 }
 

@@ -81,15 +81,23 @@ inline void expect_refused(const CommandResult& result, const std::vector<std::s
     for (const auto& word : words) EXPECT_NE(last.find(word), std::string::npos) << word << ": " << last;
 }
 
+/// Whether Debian's own Python has these modules, as in "h5py, torch". They are looked for and not loaded: torch takes seconds.
+inline bool python_has(const std::string& modules) {
+    return run_command(
+               "/usr/bin/python3 -c 'import sys; from importlib.util import find_spec; "
+               "sys.exit(not all(map(find_spec, sys.argv[1].split(\", \"))))' '" +
+               modules + "'")
+               .exit == 0;
+}
+
 /// Debian's own Python with what eager PyTorch's side of a comparison needs.
 inline bool has_eager_pytorch() {
-    return run_command("/usr/bin/python3 -c 'import h5py, torch'").exit == 0;
+    return python_has("h5py, torch");
 }
 
 /// Debian's own Python with the modules that the reference programs need.
 inline bool has_reference_python() {
-    return std::filesystem::exists(shared("reference/preprocess.py")) &&
-           run_command("/usr/bin/python3 -c 'import h5py, scipy'").exit == 0;
+    return std::filesystem::exists(shared("reference/preprocess.py")) && python_has("h5py, scipy");
 }
 
 }  // namespace actformer::test

@@ -53,7 +53,7 @@ struct Contents : testing::Test {
         EXPECT_EQ(ran.exit, 0) << ran.output;
         return ran.exit == 0;
     }
-    static bool has_h5py() { return run_command("/usr/bin/python3 -c 'import h5py'").exit == 0; }
+    static bool has_h5py() { return python_has("h5py"); }
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 using namespace actformer::test;
 
 bool has_numpy() {
-    return run_command("/usr/bin/python3 -c 'import numpy'").exit == 0;
+    return python_has("numpy");
 }
 
 /// What Python says of `file`, called f in `code`, with NumPy and its zip archive z.

@@ -71,7 +71,7 @@ struct PickledOnDevice : testing::Test {
 struct SampledOnDevice : PickledOnDevice {
     void SetUp() override {
         if (!fs::exists(samples)) GTEST_SKIP() << "needs " << samples;
-        static const bool has_python = run_command("/usr/bin/python3 -c 'import h5py, scipy'").exit == 0;
+        static const bool has_python = python_has("h5py, scipy");
         if (!has_python) GTEST_SKIP() << "needs /usr/bin/python3 with h5py and scipy";
     }
 

@@ -340,7 +340,7 @@ TEST_F(Action2Motion, RefusesMotionsThatDoNotFit) {
 TEST_F(Action2Motion, AgreesWithPyTorch) {
     const auto oracle = shared("reference/action2motion.py");
     if (!std::filesystem::exists(oracle)) GTEST_SKIP() << oracle << " is not at hand";
-    if (run_command("/usr/bin/python3 -c 'import h5py, torch'").exit != 0)
+    if (!python_has("h5py, torch"))
         GTEST_SKIP() << "no Python with torch and h5py (Debian: python3-torch python3-h5py)";
     const TempDir dir;
     std::string runs;

@@ -340,7 +340,7 @@ void expect_agreement(const Case& one, const Reference& reference) {
 
 TEST_F(CsgnNetworks, AgreeWithTheReferenceInPyTorch) {
     if (!std::filesystem::exists(shared("reference/csgn.py"))) GTEST_SKIP() << "no reference program csgn.py";
-    if (run_command("/usr/bin/python3 -c 'import h5py, torch'").exit != 0)
+    if (!python_has("h5py, torch"))
         GTEST_SKIP() << "no Python with torch and h5py (Debian: python3-torch python3-h5py)";
     using ingest::Representation;
     const std::string sizes = ",base=8,latent=16,batch=3,classes=5";
