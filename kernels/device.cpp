@@ -126,7 +126,11 @@ Device::Device(std::string_view wish) {
     programs_ = std::make_unique<ProgramCache>(context_, device_);
 }
 
-Device::~Device() = default;
+/// What was begun ends first: PoCL aborts a process that leaves while it still compiles.
+Device::~Device() {
+    if (queue_()) clFinish(queue_());
+}
+
 Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;
 
