@@ -130,7 +130,7 @@ class Reading {
         for (std::uint64_t t = 0; t < frames_; ++t)
             for (std::size_t i = 0; i < kept.size(); ++i) add(&all[(t * persons + kept[i]) * body_], 1);
         finish();
-        out_.filled = true;
+        out_.filled = filled_;
         return std::move(out_);
     }
 
@@ -176,7 +176,7 @@ class Reading {
     }
 
     /// Fills in what was not seen of a person, joint by joint. The name of a joint that never was.
-    std::string fill(std::vector<double>& all, std::uint64_t persons, std::uint64_t person) const {
+    std::string fill(std::vector<double>& all, std::uint64_t persons, std::uint64_t person) {
         const auto at = [&](std::uint64_t t, std::size_t j) {
             return &all[((t * persons + person) * joints_ + j) * 3];
         };
@@ -185,6 +185,7 @@ class Reading {
             for (; t < frames_; ++t) {
                 if (!joint_seen(at(t, j))) continue;
                 const auto gap = before == frames_ ? 0 : before + 1;
+                filled_ = filled_ || gap < t;
                 for (auto g = gap; g < t; ++g)
                     between(before == frames_ ? at(t, j) : at(before, j), at(t, j),
                             before == frames_
@@ -195,6 +196,7 @@ class Reading {
             }
             if (before == frames_)
                 return fmt::format("{} is never seen", in_quotes(request_.topology->names[j]));
+            filled_ = filled_ || before + 1 < frames_;
             for (auto g = before + 1; g < frames_; ++g) std::copy(at(before, j), at(before, j) + 3, at(g, j));
         }
         return {};
@@ -269,6 +271,7 @@ class Reading {
     std::array<double, 3> origin_{};
     std::vector<double> lengths_;  ///< (persons, joints)
     std::uint64_t added_ = 0;      ///< bodies whose lengths are among these
+    bool filled_ = false;          ///< any gap
     ClipPositions out_;
 };
 

@@ -191,6 +191,12 @@ TEST(ClipPositions, LosePaddingWhereClipsShareAnArray) {
     for (std::uint64_t t = 4; t < 6; ++t) clip.forget(t, 0, 0.0);
     EXPECT_EQ(clip.taken().frames, 4U);
     EXPECT_EQ(clip.taken({}, 1).frames, 6U);
+    EXPECT_TRUE(clip.taken().filled) << "frame 2";
+
+    Array shorter(1, 6, 1);
+    for (std::uint64_t t = 4; t < 6; ++t) shorter.forget(t, 0, t == 4 ? unseen : 0.0);
+    EXPECT_EQ(shorter.taken().frames, 4U);
+    EXPECT_FALSE(shorter.taken().filled) << "what lies behind a clip's end is no gap";
 }
 
 TEST(ClipPositions, AreCutOutOfAClip) {
