@@ -193,8 +193,7 @@ TEST_F(Export, BlenderHasTheJointsWhereTheyAre) {
 }
 
 TEST_F(Export, NumpyLoadsTheJoints) {
-    if (!python_has("numpy"))
-        GTEST_SKIP() << "Debian's python3-numpy is not here";
+    if (!python_has("numpy")) GTEST_SKIP() << "Debian's python3-numpy is not here";
     ASSERT_EQ(run_actformer("export " + toy_pairs().string() + " -o " + at("all.npz")).exit, 0);
     const ingest::Dataset dataset(toy_pairs());
     write_file(dir / "look.py",

@@ -339,8 +339,7 @@ TEST_F(IngestNtu, FindsFlippedBytes) {
 }
 
 TEST_F(IngestNtu, StaysVerifiedWhenAnotherProgramOpensAShard) {
-    if (!python_has("h5py"))
-        GTEST_SKIP() << "no h5py in /usr/bin/python3";
+    if (!python_has("h5py")) GTEST_SKIP() << "no h5py in /usr/bin/python3";
     clip("S001C001P001R001A001", plain_clip());
     ASSERT_EQ(ingest().exit, 0);
     const auto shard = dir / "out/ntu-1p/shard-00000.h5";

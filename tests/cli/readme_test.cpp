@@ -19,8 +19,7 @@ std::string block(const std::string& language) {
 }  // namespace
 
 TEST(Readme, ItsPythonReadsAShard) {
-    if (!python_has("h5py"))
-        GTEST_SKIP() << "no h5py in /usr/bin/python3";
+    if (!python_has("h5py")) GTEST_SKIP() << "no h5py in /usr/bin/python3";
     const TempDir dir;
     write_file(dir / "raw/S001C001P001R001A007.skeleton", plain_clip(42));
     const auto in_dir = "cd " + dir.path().string() + " && ";
