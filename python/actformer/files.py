@@ -1,0 +1,50 @@
+"""HDF5 and JSON files, opened with errors of one line."""
+
+import json
+import os
+from pathlib import Path
+from typing import Any, List, Sequence, Union
+
+import h5py
+import numpy as np
+
+from .errors import Error
+
+AnyPath = Union[str, "os.PathLike[str]"]
+
+
+def open_hdf5(path: Path) -> h5py.File:
+    """The file, open for reading. Raises Error where it is missing, no HDF5 file, or damaged."""
+    if not path.is_file():
+        raise Error(f"{path}: no such file")
+    try:
+        return h5py.File(path, "r")
+    except OSError as why:
+        raise Error(f"{path}: no HDF5 file, or damaged ({_first_line(why)}); make it anew") from None
+
+
+def read_json(path: Path, what: str) -> Any:
+    """What the JSON file holds. Raises Error naming the line at fault; ``what`` says which file was expected."""
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise Error(f"{path}: no such file; give {what}") from None
+    except (OSError, UnicodeDecodeError) as why:
+        raise Error(f"{path}: cannot be read: {_first_line(why)}") from None
+    except json.JSONDecodeError as why:
+        raise Error(f"{path}:{why.lineno}: no JSON ({why.msg}); give {what}") from None
+
+
+def texts(values: Any) -> List[str]:
+    """Texts of an HDF5 array or attribute, of fixed or variable length, one or many."""
+    return [v.decode("utf-8", "replace") if isinstance(v, bytes) else str(v) for v in np.atleast_1d(values)]
+
+
+def fixed_texts(words: Sequence[str]) -> Any:
+    """Texts as the program reads them in attributes: UTF-8 of fixed length."""
+    encoded = [word.encode("utf-8") for word in words]
+    return np.array(encoded, h5py.string_dtype("utf-8", max([1, *map(len, encoded)])))
+
+
+def _first_line(why: Exception) -> str:
+    return str(why).splitlines()[0] if str(why) else type(why).__name__
