@@ -1,5 +1,7 @@
 #include "kernels/program_cache.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 
 namespace actformer::kernels {
@@ -13,9 +15,10 @@ cl::Program ProgramCache::get(std::string_view source, std::string_view label, c
     try {
         program.build(device_, ("-cl-std=CL1.2 " + options).c_str());
     } catch (const cl::Error&) {
-        throw Error("OpenCL kernel {} does not build on {} (options '{}'):\n{}", label,
-                    device_.getInfo<CL_DEVICE_NAME>(), options,
-                    program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_));
+        auto said = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device_);
+        std::ranges::replace(said, '\n', ' ');
+        throw Error("OpenCL kernel {} does not build on {} (options '{}'): {}", label,
+                    device_.getInfo<CL_DEVICE_NAME>(), options, said);
     }
     programs_.emplace(std::move(key), program);
     return program;

@@ -7,6 +7,12 @@
 namespace actformer {
 namespace {
 
+/// Ends a line or turns the direction of writing, unseen.
+bool moves_text(std::uint32_t code) {
+    return code == 0x61C || code == 0x200E || code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||
+           (code >= 0x2066 && code <= 0x2069);
+}
+
 /// Bytes of the printable character that `text` starts with; 0 where there is none.
 std::size_t character(std::string_view text) {
     const auto first = static_cast<unsigned char>(text[0]);
@@ -21,7 +27,7 @@ std::size_t character(std::string_view text) {
     }
     const std::uint32_t least = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;
     const bool surrogate = code >= 0xD800 && code <= 0xDFFF, control = code < 0xA0;
-    return code < least || code > 0x10FFFF || surrogate || control ? 0 : length;
+    return code < least || code > 0x10FFFF || surrogate || control || moves_text(code) ? 0 : length;
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ const std::set<std::string, std::less<>> telling{"clips",   "labels", "classes",
 /// Error::what() without the file's name that some put before it.
 std::string without_path(const Error& error, std::string_view path) {
     std::string why = error.what();
-    if (why.starts_with(std::string(path) + ": ")) why.erase(0, path.size() + 2);
+    if (const auto start = printable(path) + ": "; why.starts_with(start)) why.erase(0, start.size());
     return why;
 }
 
