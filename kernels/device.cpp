@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdlib>
 
+#include "base/threads/parallel.hpp"
 #include "kernels/buffer.hpp"
 #include "kernels/memory_pool.hpp"
 #include "kernels/program_cache.hpp"
@@ -14,7 +15,9 @@
 namespace actformer::kernels {
 namespace {
 
+/// PoCL aborts where it is refused the thread that it starts for every core.
 std::vector<cl::Device> raw_devices() {
+    expect_threads(thread_count(0));
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);

@@ -20,9 +20,13 @@ Aside::Aside(fs::path path, const std::string& ending)
                     folder.string());
     if (fs::is_directory(path_, ignored))
         throw Error("{}: cannot be written: it is a folder; give a file name", path_.string());
-    errno = 0;
-    if (!std::ofstream(partial_, std::ios::binary))
-        throw Error("{}: cannot be written: {}; choose another place", path_.string(), std::strerror(errno));
+    temporary_.emplace([this] {
+        errno = 0;
+        if (!std::ofstream(partial_, std::ios::binary))
+            throw Error("{}: cannot be written: {}; choose another place", path_.string(),
+                        std::strerror(errno));
+        return partial_;
+    });
 }
 
 Aside::~Aside() {

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+
+#include "base/files/temporary.hpp"
 
 namespace actformer {
 
-/// A file in the making, beside where it will be: "out.h5.partial" for "out.h5". Gone at the end unless commit() was called.
+/// A file in the making, beside where it will be: "out.h5.partial" for "out.h5". Gone at the end unless commit() was called, and
+/// with a signal that ends the program.
 class Aside {
   public:
     /// Makes it, empty. `ending` comes last in its name, for libraries that go by it. Throws Error where nothing can be
@@ -24,6 +28,7 @@ class Aside {
 
   private:
     std::filesystem::path path_, partial_;
+    std::optional<Temporary> temporary_;
     bool committed_ = false;
 };
 

@@ -1,6 +1,14 @@
 #include "base/files/scratch.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -8,17 +16,62 @@ namespace actformer {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* scratch_prefix = "actformer-scratch-";
+
+/// A lock on the folder, or -1 where another process holds it, or where it is no folder of this user's.
+int lock_on(const fs::path& folder) {
+    const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    struct stat status {};
+    if (file >= 0 && ::fstat(file, &status) == 0 && status.st_uid == ::geteuid() &&
+        ::flock(file, LOCK_EX | LOCK_NB) == 0)
+        return file;
+    if (file >= 0) ::close(file);
+    return -1;
+}
+
+/// Removes what processes left that are no more: nobody holds it.
+void remove_stale(const fs::path& below) {
+    std::error_code error;
+    for (fs::directory_iterator entry(below, error), end; !error && entry != end; entry.increment(error)) {
+        if (!entry->path().filename().string().starts_with(scratch_prefix)) continue;
+        const int lock = lock_on(entry->path());
+        if (lock < 0) continue;
+        std::error_code ignored;
+        fs::remove_all(entry->path(), ignored);
+        ::close(lock);
+    }
+}
+
+}  // namespace
+
 Scratch::Scratch(const std::string& purpose, const fs::path& where) {
     const auto below = where.empty() ? fs::temp_directory_path() : where;
-    auto name = (below / ("actformer-" + purpose + "-XXXXXX")).string();
-    if (!mkdtemp(name.data()))
-        throw Error("{}: no folder can be made in it; choose another place", below.string());
-    path_ = name;
+    remove_stale(below);
+    const auto make = [&]() -> fs::path {
+        auto name = (below / (scratch_prefix + purpose + "-XXXXXX")).string();
+        if (!::mkdtemp(name.data()))
+            throw Error("{}: no folder can be made in it ({}); choose another place", below.string(),
+                        std::strerror(errno));
+        return name;
+    };
+    // Whoever removes what is stale may take a new folder for such before it is locked: then another is made. Where the file system
+    // knows no locks, nobody removes anything.
+    for (int attempt = 0; attempt < 5; ++attempt) {
+        folder_ = std::make_unique<Temporary>(make);
+        lock_ = lock_on(path());
+        if (lock_ >= 0 && fs::exists(path())) return;
+        if (lock_ >= 0) ::close(std::exchange(lock_, -1));
+        fs::remove(path());
+    }
+    folder_ = std::make_unique<Temporary>(make);
 }
 
 Scratch::~Scratch() {
     std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    fs::remove_all(path(), ignored);
+    if (lock_ >= 0) ::close(lock_);
 }
 
 }  // namespace actformer

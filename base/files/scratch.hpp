@@ -2,11 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
+
+#include "base/files/temporary.hpp"
 
 namespace actformer {
 
-/// A new folder of its own, removed with all that is in it.
+/// A new folder of its own, removed with all that is in it, by a signal too. What a killed process left is removed by the next one that
+/// makes such a folder in the same place.
 class Scratch {
   public:
     /// Below `where`, or the system's place for such things; `purpose` is part of its name. Throws Error where none can be made.
@@ -15,10 +19,11 @@ class Scratch {
     Scratch(const Scratch&) = delete;
     Scratch& operator=(const Scratch&) = delete;
 
-    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& path() const { return folder_->path(); }
 
   private:
-    std::filesystem::path path_;
+    std::unique_ptr<Temporary> folder_;
+    int lock_ = -1;  ///< held on the folder itself: its process lives
 };
 
 }  // namespace actformer

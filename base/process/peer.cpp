@@ -1,17 +1,54 @@
 #include "base/process/peer.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <array>
-#include <cstdio>
+#include <cerrno>
+#include <cstring>
+
+#include "base/error.hpp"
+#include "base/process/child.hpp"
 
 namespace actformer {
+namespace {
 
-std::optional<std::string> output_of(const std::string& line) {
-    FILE* pipe = ::popen(line.c_str(), "r");
-    if (!pipe) return {};
+struct Pipe {
+    Pipe() {
+        int ends[2];
+        if (::pipe2(ends, O_CLOEXEC) != 0) throw Error("no pipe can be made: {}", std::strerror(errno));
+        from = ends[0];
+        to = ends[1];
+    }
+    ~Pipe() {
+        ::close(from);
+        close_to();
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+    void close_to() {
+        if (to >= 0) ::close(to);
+        to = -1;
+    }
+    int from = -1, to = -1;
+};
+
+}  // namespace
+
+std::optional<std::string> output_of(const std::vector<std::string>& command,
+                                     const std::map<std::string, std::string>& more) {
+    Pipe pipe;
+    Child child(command, pipe.to, STDERR_FILENO, more);
+    pipe.close_to();
     std::string said;
     std::array<char, 4096> piece;
-    while (const auto got = std::fread(piece.data(), 1, piece.size(), pipe)) said.append(piece.data(), got);
-    if (::pclose(pipe) != 0) return {};
+    for (;;) {
+        const auto got = ::read(pipe.from, piece.data(), piece.size());
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
+        said.append(piece.data(), static_cast<std::size_t>(got));
+    }
+    if (child.wait() != 0) return {};
     return said;
 }
 

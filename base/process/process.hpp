@@ -12,9 +12,9 @@ struct ProcessResult {
     std::string last_line;  ///< of what it wrote: where it failed, why
 };
 
-/// Runs command[0] with the arguments that follow and waits. What it writes is appended to `log`; it reads nothing. It ends with
-/// this process, killed or not. Throws Error where the log cannot be opened or no process can be made; a program that is
-/// not there gives exit code 127.
+/// Runs command[0] with the arguments that follow and waits. What it writes is appended to `log`; it reads nothing. A signal that
+/// this process catches reaches it too, as SIGTERM, and it does not outlive this process. Throws Error where the log cannot be
+/// opened or no process can be made; a program that is not there gives exit code 127.
 ProcessResult run_process(const std::vector<std::string>& command, const std::filesystem::path& log);
 
 /// The folder that this program lies in: its sister programs lie there too.

@@ -9,12 +9,14 @@
 #include <thread>
 #include <utility>
 
+#include "base/threads/thread.hpp"
+
 namespace actformer {
 
 class Worker {
   public:
-    /// At most `most` jobs wait, so that what they hold in memory stays bounded.
-    explicit Worker(std::size_t most) : most_(most), thread_([this] { work(); }) {}
+    /// At most `most` jobs wait, so that what they hold in memory stays bounded. Throws Error where no thread can be had.
+    explicit Worker(std::size_t most) : most_(most), thread_(new_thread([this] { work(); })) {}
 
     /// Drops the jobs that wait and lets the one in hand end.
     ~Worker() {
@@ -82,7 +84,7 @@ class Worker {
     std::deque<std::packaged_task<void()>> waiting_;
     std::exception_ptr failure_;
     bool busy_ = false, stopping_ = false;
-    std::thread thread_;  // last: it uses all the others
+    std::jthread thread_;  // last: it uses all the others
 };
 
 }  // namespace actformer

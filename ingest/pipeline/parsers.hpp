@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/threads/thread.hpp"
 #include "ingest/pipeline/groups.hpp"
 
 namespace actformer::ingest {
@@ -33,17 +34,16 @@ class Parsers {
 
     Parsers(unsigned threads, std::uint64_t largest_file, Parse parse)
         : parse_(std::move(parse)), largest_file_(largest_file) {
-        for (unsigned t = 0; t < threads; ++t) threads_.emplace_back([this] { work(); });
+        try {
+            for (unsigned t = 0; t < threads; ++t) threads_.push_back(new_thread([this] { work(); }));
+        } catch (...) {
+            stop();
+            throw;
+        }
     }
 
     /// Leaves out what has not been begun, and what waits for room.
-    ~Parsers() {
-        {
-            const std::lock_guard lock(mutex_);
-            stopping_ = true;
-        }
-        changed_.notify_all();
-    }
+    ~Parsers() { stop(); }
     Parsers(const Parsers&) = delete;
     Parsers& operator=(const Parsers&) = delete;
 
@@ -71,6 +71,14 @@ class Parsers {
     }
 
   private:
+    void stop() {
+        {
+            const std::lock_guard lock(mutex_);
+            stopping_ = true;
+        }
+        changed_.notify_all();
+    }
+
     struct InHand {
         Group group;
         std::size_t begun = 0, taken = 0;  ///< files

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/threads/thread.hpp"
 #include "model/train/training.hpp"
 
 namespace actformer::model {
@@ -48,8 +49,13 @@ void GeneratorScorer::begin(Learner& learner, std::uint64_t epoch, std::uint64_t
     scores_.report.epoch = epoch;
     scores_.report.step = step;
     scores_.weights = learner.keeps_ema() ? learner.ema_weights() : learner.weights();
-    judged_ = std::async(std::launch::async,
-                         [this, motions = motions_of(scores_.weights)] { return judge_.score(motions); });
+    auto motions = motions_of(scores_.weights);
+    try {
+        judged_ = std::async(std::launch::async,
+                             [this, motions = std::move(motions)] { return judge_.score(motions); });
+    } catch (const std::system_error& e) {
+        fail_without_thread(e);
+    }
 }
 
 std::optional<Scores> GeneratorScorer::end() {

@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
+#include "base/threads/thread.hpp"
 
 namespace actformer::model {
 namespace {
@@ -79,6 +80,7 @@ int set_threads(int threads) {
         cpu_set_t allowed;
         threads = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
     }
+    expect_threads(static_cast<unsigned>(threads));  // OpenMP ends the process where it is refused one
     at::set_num_threads(threads);
     return threads;
 }

@@ -1,0 +1,153 @@
+#include "base/process/interruption.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <mutex>
+#include <thread>
+
+#include "base/files/temporary.hpp"
+#include "base/text/printable.hpp"
+
+namespace actformer {
+namespace {
+
+struct Signals {
+    std::mutex mutex;
+    int first = 0;  ///< signal that came first; 0: none
+    int interrupts = 0;
+    int safe_points = 0;
+    std::list<pid_t> children;
+    std::list<std::string> goes_on;
+};
+
+/// Never destroyed: a signal may come while the process ends.
+Signals& signals() {
+    static auto& one = *new Signals;
+    return one;
+}
+
+std::string stopped_by(int signal, const std::string& how_to_go_on) {
+    return fmt::format("stopped by SIG{}{}{}", sigabbrev_np(signal), how_to_go_on.empty() ? "" : "; ",
+                       how_to_go_on);
+}
+
+/// Holds the mutex, so that nothing else begins.
+[[noreturn]] void end(const Signals& now, int signal) {
+    remove_temporaries();
+    const auto line =
+        fmt::format("{}actformer: {}\n", ::isatty(STDERR_FILENO) ? "\r\033[K" : "",
+                    printable(stopped_by(signal, now.goes_on.empty() ? "" : now.goes_on.back())));
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+    ::_exit(128 + signal);
+}
+
+void take(int signal) {
+    auto& now = signals();
+    const std::lock_guard lock(now.mutex);
+    now.interrupts += signal == SIGINT;
+    if (now.safe_points == 0 || now.interrupts > 1) end(now, signal);
+    if (now.first != 0) return;
+    now.first = signal;
+    for (const auto child : now.children) ::kill(child, SIGTERM);
+}
+
+/// Those that end the program, but for what its caller ignores.
+sigset_t those_that_end() {
+    sigset_t set;
+    ::sigemptyset(&set);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction found {};
+        if (::sigaction(signal, nullptr, &found) == 0 && found.sa_handler != SIG_IGN)
+            ::sigaddset(&set, signal);
+    }
+    return set;
+}
+
+}  // namespace
+
+void end_in_order() {
+    ::signal(SIGPIPE, SIG_IGN);
+    ::signal(SIGXFSZ, SIG_IGN);
+    const auto set = those_that_end();
+    ::pthread_sigmask(SIG_BLOCK, &set, nullptr);  // in all threads, as they take it from this one
+    try {
+        std::thread([set] {
+            for (;;) {
+                int signal = 0;
+                if (::sigwait(&set, &signal) == 0) take(signal);
+            }
+        }).detach();
+    } catch (
+        const std::
+            system_error&) {  // without a thread to wait for them they end the program, as they do any other
+        ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+    }
+}
+
+void restore_signals() {
+    ::signal(SIGPIPE, SIG_DFL);
+    ::signal(SIGXFSZ, SIG_DFL);
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+Interrupted::Interrupted(int signal, const std::string& how_to_go_on)
+    : signal_(signal), text_(printable(stopped_by(signal, how_to_go_on))) {}
+
+SafePoints::SafePoints() : exceptions_(std::uncaught_exceptions()) {
+    auto& now = signals();
+    const std::lock_guard lock(now.mutex);
+    ++now.safe_points;
+}
+
+SafePoints::~SafePoints() {
+    auto& now = signals();
+    const std::lock_guard lock(now.mutex);
+    if (--now.safe_points == 0 && now.first != 0 && std::uncaught_exceptions() == exceptions_)
+        end(now, now.first);
+}
+
+bool SafePoints::asked() const {
+    auto& now = signals();
+    const std::lock_guard lock(now.mutex);
+    return now.first != 0;
+}
+
+void SafePoints::stop(const std::string& how_to_go_on) const {
+    auto& now = signals();
+    std::unique_lock lock(now.mutex);
+    const int signal = now.first;
+    lock.unlock();
+    throw Interrupted(signal, how_to_go_on);
+}
+
+PassedOn::PassedOn(pid_t child) {
+    auto& now = signals();
+    const std::lock_guard lock(now.mutex);
+    now.children.push_front(child);
+    here_ = now.children.begin();
+    if (now.first != 0) ::kill(child, SIGTERM);
+}
+
+PassedOn::~PassedOn() {
+    auto& now = signals();
+    const std::lock_guard lock(now.mutex);
+    now.children.erase(here_);
+}
+
+GoesOn::GoesOn(const std::string& how) {
+    auto& now = signals();
+    const std::lock_guard lock(now.mutex);
+    here_ = now.goes_on.insert(now.goes_on.end(), how);
+}
+
+GoesOn::~GoesOn() {
+    auto& now = signals();
+    const std::lock_guard lock(now.mutex);
+    now.goes_on.erase(here_);
+}
+
+}  // namespace actformer
