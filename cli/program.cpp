@@ -2,11 +2,16 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
+#include <signal.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <new>
+#include <system_error>
 
+#include "base/process/interruption.hpp"
 #include "base/text/nearest_word.hpp"
 #include "base/text/printable.hpp"
 
@@ -68,7 +73,9 @@ void keep_freed_memory() {
     mallopt(M_ARENA_MAX, 1);
 }
 
-int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) try {
+namespace {
+
+int parse(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) {
     CLI::App app{"From raw motion capture to a published table."};
     app.name("actformer");
     app.set_version_flag("--version", ACTFORMER_VERSION);
@@ -83,13 +90,45 @@ int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add
         const auto unknown = unknown_word(app, argc, argv);
         auto help = app.get_name();
         for (int i = 1; i < command_named(app, argc, argv).second; ++i) help += fmt::format(" {}", argv[i]);
-        fmt::print(stderr, "actformer: {} (see {} --help)\n", unknown.empty() ? e.what() : unknown, help);
+        fmt::print(stderr, "actformer: {} (see {} --help)\n", unknown.empty() ? printable(e.what()) : unknown,
+                   help);
         return 1;
     }
     return 0;
-} catch (const std::exception& e) {
-    fmt::print(stderr, "actformer: {}\n", e.what());
+}
+
+/// What was printed must have arrived. Nobody need read it all.
+int closed_output() {
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return 0;
+    if (errno == EPIPE) return 128 + SIGPIPE;
+    fmt::print(stderr, "actformer: standard output cannot be written: {}\n", std::strerror(errno));
     return 1;
+}
+
+int failed(const std::string& why) {
+    fmt::print(stderr, "actformer: {}\n", printable(why));
+    return 1;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) try {
+    end_in_order();
+    const int code = parse(argc, argv, add_commands);
+    const int output = closed_output();
+    return code ? code : output;
+} catch (const Interrupted& e) {
+    failed(e.what());
+    return e.exit_code();
+} catch (const std::bad_alloc&) {
+    return failed(
+        "not enough memory; fewer --threads or a smaller --batch, where there is one, take less, and limits "
+        "may be "
+        "raised (ulimit -v)");
+} catch (const std::system_error& e) {  // of fmt::print, where standard output is a pipe that nobody reads
+    return e.code() == std::errc::broken_pipe ? 128 + SIGPIPE : failed(e.what());
+} catch (const std::exception& e) {
+    return failed(e.what());
 }
 
 }  // namespace actformer::cli

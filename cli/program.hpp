@@ -12,7 +12,7 @@ namespace actformer::cli {
 void keep_freed_memory();
 
 /// Parses and runs `actformer` with the commands that `add_commands` gives it. Exit code 0, or 1 with one line on
-/// standard error.
+/// standard error, or 128 + the signal that ended it.
 int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands);
 
 }  // namespace actformer::cli

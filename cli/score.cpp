@@ -12,8 +12,11 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/scratch.hpp"
+#include "base/files/temporary.hpp"
+#include "base/process/interruption.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "cli/say.hpp"
 #include "eval/scoring/labels_file.hpp"
 #include "eval/scoring/motions_file_source.hpp"
 #include "eval/scoring/score.hpp"
@@ -59,9 +62,16 @@ class WorkFolder {
             return;
         }
         path_ = out.string() + ".work";
-        std::error_code error;
-        fs::create_directories(path_, error);
-        if (error) throw Error("{}: no folder can be made there: {}", path_.string(), error.message());
+        kept_.emplace(
+            [this] {
+                std::error_code error;
+                fs::create_directories(path_, error);
+                if (error)
+                    throw Error("{}: no folder can be made there: {}", path_.string(), error.message());
+                return path_;
+            },
+            Temporary::Removes::empty_folder);
+        goes_on_.emplace("the same command goes on from there");
     }
     ~WorkFolder() {
         std::error_code ignored;
@@ -78,6 +88,8 @@ class WorkFolder {
 
   private:
     std::optional<Scratch> temporary_;
+    std::optional<Temporary> kept_;
+    std::optional<GoesOn> goes_on_;
     fs::path path_;
 };
 
@@ -164,15 +176,15 @@ std::string value_text(const eval::Metric& metric, double value) {
 }
 
 void print_metrics(const eval::ScoreReport& report) {
-    fmt::print("{:<16}{:>22}{:>22}\n", "", "generated", "real against real");
+    say("{:<16}{:>22}{:>22}\n", "", "generated", "real against real");
     for (const auto& metric : eval::metrics()) {
         const auto got = summary(report, metric);
         if (!got) continue;
         auto text = value_text(metric, got->mean);
         if (got->half_width) text += " ± " + value_text(metric, *got->half_width);
         const auto floor = report.floor ? value_of(report.floor->score, metric) : std::nullopt;
-        fmt::print("{:<16}{:>22}{:>22}   {}\n", fmt::format("{} {}", metric.heading, metric.unit), text,
-                   floor ? value_text(metric, *floor) : "-", describe(metric.direction));
+        say("{:<16}{:>22}{:>22}   {}\n", fmt::format("{} {}", metric.heading, metric.unit), text,
+            floor ? value_text(metric, *floor) : "-", describe(metric.direction));
     }
 }
 
@@ -180,27 +192,25 @@ void print_classes(const nlohmann::ordered_json& classes) {
     const auto cell = [](const nlohmann::ordered_json& value, double scale) {
         return value.is_null() ? std::string("-") : fmt::format("{:.4g}", scale * value.get<double>());
     };
-    fmt::print("\n{:<28}{:>8}{:>11}{:>12}{:>10}{:>10}\n", "class", "real", "generated", "accuracy %", "FID",
-               "FIDa");
+    say("\n{:<28}{:>8}{:>11}{:>12}{:>10}{:>10}\n", "class", "real", "generated", "accuracy %", "FID", "FIDa");
     for (const auto& c : classes)
-        fmt::print("{:<28}{:>8}{:>11}{:>12}{:>10}{:>10}\n", c["class"].get<std::string>().substr(0, 27),
-                   c["real"].get<std::size_t>(), c["generated"].get<std::size_t>(), cell(c["accuracy"], 100),
-                   cell(c["fid"], 1), cell(c["fida"], 1));
+        say("{:<28}{:>8}{:>11}{:>12}{:>10}{:>10}\n", c["class"].get<std::string>().substr(0, 27),
+            c["real"].get<std::size_t>(), c["generated"].get<std::size_t>(), cell(c["accuracy"], 100),
+            cell(c["fid"], 1), cell(c["fida"], 1));
 }
 
 void print_text(const eval::Scored& scored) {
     const auto& report = scored.report;
     const auto& real = scored.json["real"];
-    fmt::print(
-        "{} of {}, {}; {}\n", counted(report.repeats.size(), "repeat"),
+    say("{} of {}, {}; {}\n", counted(report.repeats.size(), "repeat"),
         counted(report.classes.size(), "class"), counted(real["samples"].get<std::uint64_t>(), "real sample"),
         report.real_accuracy
             ? fmt::format("the recogniser is right on {:.1f} % of the real ones", 100 * *report.real_accuracy)
             : "no recogniser tells their classes");
     print_metrics(report);
     if (report.classes.size() <= 30) print_classes(scored.json["per_class"]);
-    if (!report.warnings.empty()) fmt::print("\n");
-    for (const auto& warning : report.warnings) fmt::print("warning: {}\n", warning);
+    if (!report.warnings.empty()) say("\n");
+    for (const auto& warning : report.warnings) say("warning: {}\n", warning);
 }
 
 eval::Scored scored_by(const ScoreOptions& options, const eval::GenerateSets& generate,

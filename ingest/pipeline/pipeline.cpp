@@ -7,6 +7,7 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/process/interruption.hpp"
 #include "base/text/printable.hpp"
 #include "base/threads/parallel.hpp"
 #include "base/threads/worker.hpp"
@@ -71,26 +72,36 @@ class Ingest {
             fs::remove_all(aside, ignored);
             return summary_;
         }
+        const SafePoints safe_points;
         Workplace workplace(aside, wanted);
         try {
             go_on_from(workplace, source);
-            read_everything(workplace, source);
+            read_everything(workplace, source, safe_points);
             finish(workplace, wanted);
+        } catch (const Interrupted&) {
+            safe_points.stop(kept_for_later(workplace, aside));
         } catch (const std::exception& e) {
-            if (workplace.finished().empty()) {
-                workplace.discard();
-                throw;
-            }
-            std::uint64_t kept = 0;
-            for (const auto& tranche : workplace.finished()) kept += tranche.files;
-            throw Error("{} ({} files are done and kept in {}; the same command goes on from there)",
-                        e.what(), kept, aside.string());
+            const bool any = !workplace.finished().empty();
+            const auto kept = kept_for_later(workplace, aside);
+            if (!any) throw;
+            throw Error("{} ({})", e.what(), kept);
         }
         summary_.seconds.wall = seconds_since(start);
         return summary_;
     }
 
   private:
+    /// What a run that stops here leaves for the next one, in words; removes it where that is nothing.
+    static std::string kept_for_later(Workplace& workplace, const fs::path& aside) {
+        std::uint64_t kept = 0;
+        for (const auto& tranche : workplace.finished()) kept += tranche.files;
+        if (!workplace.finished().empty())
+            return fmt::format("{} files are done and kept in {}; the same command goes on from there", kept,
+                               aside.string());
+        workplace.discard();
+        return "nothing was done yet that could be kept";
+    }
+
     /// Shows the format all files if it asks for that.
     void settle_format() {
         const auto wanted = format_.surveys();
@@ -167,13 +178,14 @@ class Ingest {
     }
 
     /// Parsing some groups, cleaning what came before and writing the tranche before that overlap.
-    void read_everything(Workplace& workplace, Source& source) {
+    void read_everything(Workplace& workplace, Source& source, const SafePoints& safe_points) {
         Groups groups(source, static_cast<double>(source.bytes_total()));
         Worker writer(1), cleaner(portions_ahead);
         Parsers parsers(
             threads_, format_.largest_file(),
             [this](Item& item, ClipSink& sink, TextMemory& memory) { parse(item, sink, memory); });
         const auto hand_on = [&] {
+            if (safe_points.asked()) safe_points.stop({});
             cleaner.add([this, &workplace, &writer, portion = parsers.take()]() mutable {
                 add(portion, workplace, writer);
             });
@@ -199,7 +211,8 @@ class Ingest {
             work();
         } catch (const Error& e) {
             std::string why = e.what();
-            if (why.starts_with(file.path + ": ")) why.erase(0, file.path.size() + 2);
+            if (const auto start = printable(file.path) + ": "; why.starts_with(start))
+                why.erase(0, start.size());
             sink.take(Rejection{Rejection::Kind::broken, why});
         }
     }

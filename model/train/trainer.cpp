@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "base/process/interruption.hpp"
 #include "model/train/checkpoint.hpp"
 #include "model/train/divergence.hpp"
 #include "model/train/run_folder.hpp"
@@ -21,7 +22,7 @@ double seconds_since(Clock::time_point start) {
 class Loop {
   public:
     Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Scorer* scorer,
-         const std::filesystem::path& run, const TrainingEvents& events);
+         const std::filesystem::path& run, const TrainingEvents& events, const SafePoints& safe_points);
     TrainingResult run();
 
   private:
@@ -46,6 +47,7 @@ class Loop {
     std::map<std::string, std::string> notes(std::uint64_t step) const;
     void save();
     bool keep();
+    [[noreturn]] void stop();
     void finish();
     std::uint64_t epoch() const { return step_ / steps_an_epoch_; }
     std::filesystem::path file(const char* name) const { return folder_->path() / name; }
@@ -56,6 +58,7 @@ class Loop {
     const Processes& processes_;
     Scorer* scorer_;
     const TrainingEvents& events_;
+    const SafePoints& safe_points_;
     std::unique_ptr<RunFolder> folder_;  ///< of rank 0
     DivergenceWatch watch_;
     std::uint64_t steps_an_epoch_ = 0, windows_a_step_ = 0, step_ = 0;
@@ -69,13 +72,14 @@ class Loop {
 };
 
 Loop::Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Scorer* scorer,
-           const std::filesystem::path& run, const TrainingEvents& events)
+           const std::filesystem::path& run, const TrainingEvents& events, const SafePoints& safe_points)
     : task_(task),
       settings_(task.settings),
       learner_(learner),
       processes_(setup.processes),
       scorer_(scorer),
-      events_(events) {
+      events_(events),
+      safe_points_(safe_points) {
     windows_a_step_ = learner.windows_a_step() * static_cast<std::uint64_t>(processes_.place().size);
     steps_an_epoch_ = (setup.clips.table().clips() + windows_a_step_ - 1) / windows_a_step_;
     if (leads()) {
@@ -288,6 +292,15 @@ bool Loop::keep() {
     return write([this] { save(); });
 }
 
+/// A signal has asked for it: keeps the running step, if that can be.
+void Loop::stop() {
+    if (sums_step_ != step_) read_losses();
+    keep();
+    safe_points_.stop(
+        fmt::format("{}: the checkpoint of step {} of {} is kept; the same command goes on from there",
+                    folder_->path().string(), kept_step_, settings_.epochs * steps_an_epoch_));
+}
+
 /// The last of it must be kept.
 void Loop::finish() {
     log_later_scores();
@@ -310,6 +323,7 @@ TrainingResult Loop::run() {
             keep();
         if (leads() && events_.progress)
             events_.progress(static_cast<double>(step_) / static_cast<double>(all), step_);
+        if (leads() && step_ < all && safe_points_.asked()) stop();
     }
     TrainingResult result{epoch(), step_, {}, {}, {}, {}, {}};
     if (!leads()) return result;
@@ -326,7 +340,16 @@ TrainingResult Loop::run() {
 
 TrainingResult train(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Scorer* scorer,
                      const std::filesystem::path& run, const TrainingEvents& events) {
-    return Loop(task, learner, setup, scorer, run, events).run();
+    const SafePoints safe_points;
+    const auto& place = setup.processes.place();
+    try {
+        return Loop(task, learner, setup, scorer, run, events, safe_points).run();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception&) {  // rank 0 has stopped, and the others wait for it in vain
+        if (place.leads() || !safe_points.asked()) throw;
+        safe_points.stop(fmt::format("rank {}: rank 0 keeps the checkpoint", place.rank));
+    }
 }
 
 }  // namespace actformer::model

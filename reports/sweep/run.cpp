@@ -1,5 +1,6 @@
 #include "reports/sweep/run.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <ctime>
@@ -9,6 +10,8 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/lock.hpp"
+#include "base/process/interruption.hpp"
+#include "base/threads/thread.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -35,11 +38,22 @@ void make_folder(const fs::path& out) {
     if (error) throw Error("{}: cannot be made: {}", out.string(), error.message());
 }
 
-/// Runs a job, unless somebody else has done it; empty, or why it failed.
-std::string work_on(const Job& job, const SweepOptions& options) {
+/// Waits for whoever else does the job. None where a signal comes before.
+std::optional<FileLock> lock_when_free(const fs::path& path, const SafePoints& safe_points) {
+    auto lock = FileLock::if_free(path);
+    while (!lock && !safe_points.asked()) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        lock = FileLock::if_free(path);
+    }
+    return lock;
+}
+
+/// Runs a job, unless somebody else has done it; empty, or why it failed. A job that a signal stopped leaves no mark of that.
+std::string work_on(const Job& job, const SweepOptions& options, const SafePoints& safe_points) {
     const auto folder = folder_of(options.out, job);
     make_folder(folder);
-    const FileLock lock(folder / "lock");
+    const auto lock = lock_when_free(folder / "lock", safe_points);
+    if (!lock) return "another process does it";
     if (fs::exists(folder / "done.json")) return {};  // by whom we waited for
     fs::remove(folder / "failed.json");
     const auto commands = options.runner.command_lines(job);
@@ -49,15 +63,16 @@ std::string work_on(const Job& job, const SweepOptions& options) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (why.empty())
         write_json(folder / "done.json", {{"seconds", seconds}, {"finished", now()}});
-    else
+    else if (!safe_points.asked())
         write_json(folder / "failed.json", {{"why", why}, {"seconds", seconds}, {"finished", now()}});
     return why;
 }
 
 /// The job's status once we have worked on it. Its folder alone would not tell of a failure while others hold the lock: those who
 /// try the job again, or a process just forked by another worker.
-JobStatus worked_on(const Plan& plan, std::size_t i, const SweepOptions& options) {
-    auto why = work_on(plan.jobs[i], options);
+JobStatus worked_on(const Plan& plan, std::size_t i, const SweepOptions& options,
+                    const SafePoints& safe_points) {
+    auto why = work_on(plan.jobs[i], options, safe_points);
     if (!why.empty()) return {JobState::failed, std::move(why), {}};
     return statuses(plan, options.out)[i];
 }
@@ -65,8 +80,14 @@ JobStatus worked_on(const Plan& plan, std::size_t i, const SweepOptions& options
 /// The jobs of a plan and how far they are, shared by the workers that do them.
 class Schedule {
   public:
-    Schedule(const Sweep& sweep, const Plan& plan, const SweepOptions& options, const SweepEvents& events)
-        : sweep_(sweep), plan_(plan), options_(options), events_(events), taken_(plan.jobs.size(), false) {
+    Schedule(const Sweep& sweep, const Plan& plan, const SweepOptions& options, const SweepEvents& events,
+             const SafePoints& safe_points)
+        : sweep_(sweep),
+          plan_(plan),
+          options_(options),
+          events_(events),
+          safe_points_(safe_points),
+          taken_(plan.jobs.size(), false) {
         status_ = statuses(plan, options.out);
         for (std::size_t i = 0; i < status_.size(); ++i) {
             auto& s = status_[i];
@@ -77,7 +98,7 @@ class Schedule {
             if (status_[i].state == JobState::failed) fail_those_that_need(i);
     }
 
-    /// A worker: does jobs until none is left for it.
+    /// A worker: does jobs until none is left for it, or a signal comes.
     void work() {
         for (;;) {
             std::unique_lock lock(mutex_);
@@ -92,8 +113,10 @@ class Schedule {
             lock.lock();
             --running_;
             status_[*job] = std::move(status);
+            const bool stopped = status_[*job].state == JobState::failed && safe_points_.asked();
+            if (stopped) status_[*job] = {};
             if (status_[*job].state == JobState::failed) fail_those_that_need(*job);
-            if (events_.ends) events_.ends(plan_.jobs[*job], status_[*job]);
+            if (events_.ends && !stopped) events_.ends(plan_.jobs[*job], status_[*job]);
             write_results(sweep_, plan_, options_.out);
             changed_.notify_all();
         }
@@ -103,6 +126,7 @@ class Schedule {
 
   private:
     std::optional<std::size_t> next() const {
+        if (safe_points_.asked()) return {};
         for (std::size_t i = 0; i < taken_.size(); ++i) {
             if (taken_[i]) continue;
             bool ready = true;
@@ -117,7 +141,7 @@ class Schedule {
 
     JobStatus done_by_us(std::size_t i) {
         try {
-            return worked_on(plan_, i, options_);
+            return worked_on(plan_, i, options_, safe_points_);
         } catch (const std::exception& e) {
             return {JobState::failed, e.what(), {}};
         }
@@ -139,6 +163,7 @@ class Schedule {
     const Plan& plan_;
     const SweepOptions& options_;
     const SweepEvents& events_;
+    const SafePoints& safe_points_;
     std::vector<bool> taken_;
     std::vector<JobStatus> status_;
     std::size_t running_ = 0;
@@ -146,19 +171,31 @@ class Schedule {
     std::condition_variable changed_;
 };
 
+std::string how_to_go_on(const std::vector<JobStatus>& status) {
+    const auto done = std::count_if(status.begin(), status.end(),
+                                    [](const JobStatus& s) { return s.state == JobState::done; });
+    return fmt::format("{} of {} jobs are done, and the same command goes on from there", done,
+                       status.size());
+}
+
 }  // namespace
 
 std::vector<JobStatus> run_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
                                 const SweepEvents& events) {
+    const SafePoints safe_points;
     make_folder(options.out);
     write_results(sweep, plan, options.out);
-    Schedule schedule(sweep, plan, options, events);
+    Schedule schedule(sweep, plan, options, events, safe_points);
+    const auto workers = std::min<std::size_t>(options.jobs, plan.jobs.size());
+    expect_threads(static_cast<unsigned>(
+        workers));  // rather than to learn in the middle of a job that one cannot be had
     {
         std::vector<std::jthread> others;
-        for (unsigned i = 1; i < options.jobs; ++i) others.emplace_back([&] { schedule.work(); });
+        for (std::size_t i = 1; i < workers; ++i) others.push_back(new_thread([&] { schedule.work(); }));
         schedule.work();
     }
     write_results(sweep, plan, options.out);
+    if (safe_points.asked()) safe_points.stop(how_to_go_on(schedule.status()));
     return schedule.status();
 }
 
@@ -167,8 +204,11 @@ JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, c
         if (plan.jobs[i].id != id) continue;
         make_folder(options.out);
         if (!plan.jobs[i].problem.empty()) return {JobState::failed, plan.jobs[i].problem, {}};
-        auto status = worked_on(plan, i, options);
+        const SafePoints safe_points;
+        auto status = worked_on(plan, i, options, safe_points);
         write_results(sweep, plan, options.out);
+        if (safe_points.asked() && status.state != JobState::done)
+            safe_points.stop("the same command goes on from there");
         return status;
     }
     throw Error("there is no job '{}' in this sweep; was its file changed since it was submitted?", id);

@@ -21,8 +21,9 @@ struct SweepEvents {
 
 /// Runs what is not done; a job whose needs are done begins as soon as one of `jobs` workers is free. A failed job stops those that
 /// need it and no others, and is tried again by the next call. Several processes may work in one folder: each job is done by
-/// one of them, and the others wait for it. results.json is written before the first job and after each. Returns the
-/// statuses. Throws Error where the folder cannot be written.
+/// one of them, and the others wait for it. results.json is written before the first job and after each. A signal goes to the jobs
+/// that run, which keep what they have; none is begun after it. Returns the statuses. Throws Error where the folder cannot be
+/// written, Interrupted after a signal.
 std::vector<JobStatus> run_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
                                 const SweepEvents& events = {});
 

@@ -9,6 +9,8 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/temporary.hpp"
+#include "base/process/interruption.hpp"
 #include "base/process/process.hpp"
 #include "base/text/loose_json.hpp"
 #include "reports/sweep/run.hpp"
@@ -33,7 +35,8 @@ std::string refusal(const std::string& program, const std::string& line) {
 /// Slurm's numbers of this user's jobs that wait or run there; none where squeue does not answer. Left out are those that are over
 /// but for the tidying up, and those that wait for what failed, which Slurm is about to drop.
 std::optional<std::set<std::string>> queue(const fs::path& out, std::string& why) {
-    const auto file = out / fmt::format("squeue-{}.txt", ::getpid());
+    const Temporary temporary([&] { return out / fmt::format("squeue-{}.txt", ::getpid()); });
+    const auto& file = temporary.path();
     const auto asked = run_process({"squeue", "--noheader", "--me", "--format", "%i %t %r"}, file);
     std::set<std::string> numbers;
     std::ifstream lines(file);
@@ -93,6 +96,7 @@ std::optional<std::set<std::string>> jobs_in_slurm(const fs::path& out) {
 std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
                         const std::function<std::vector<std::string>(const Job&)>& command,
                         const std::vector<std::string>& sbatch_words) {
+    const SafePoints safe_points;  // a number of Slurm's that is not kept would have its job submitted twice
     fs::create_directories(options.out / "jobs");
     write_results(sweep, plan, options.out);
     auto numbers = submitted_before(options.out);
@@ -123,6 +127,8 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
         if (!possible) continue;  // it needs what has a problem
         if (numbers.contains(job.id) && numbers[job.id].is_string()) live[i] = numbers[job.id];
         if (!live[i].empty() && queued.contains(live[i]) && !stale) continue;
+        if (safe_points.asked())
+            safe_points.stop(fmt::format("{} submitted, and the same command goes on from there", submitted));
         live[i] = submit(job, after, options, command(job), sbatch_words);
         fresh[i] = true;
         numbers[job.id] = live[i];
