@@ -1,14 +1,19 @@
 #include "base/text/loose_json.hpp"
 
 #include <fstream>
+#include <iterator>
+
+#include "base/text/json.hpp"
 
 namespace actformer::loose {
 
 using Json = nlohmann::ordered_json;
 
 nlohmann::ordered_json read(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    return Json::parse(file, nullptr, false);
+    std::ifstream file(path, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    expect_shallow_json(text, path);
+    return Json::parse(text, nullptr, false);
 }
 
 const nlohmann::ordered_json& member(const Json& object, const char* key) {

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/files/cache.hpp"
 #include "base/files/file.hpp"
+#include "base/text/json.hpp"
 #include "eval/stgcn/recogniser.hpp"
 #include "kernels/buffer.hpp"
 
@@ -24,7 +25,7 @@ std::string key_of(const kernels::DeviceInfo& device) {
 
 Json read_file() {
     std::ifstream file(tiles_file());
-    auto json = Json::parse(file, nullptr, false);
+    auto json = json_or_discarded<Json>(std::string(std::istreambuf_iterator<char>(file), {}));
     return json.is_object() ? json : Json::object();
 }
 

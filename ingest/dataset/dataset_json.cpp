@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/text/json.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -163,6 +164,7 @@ std::string to_text(const DatasetFile& file) {
 DatasetFile read_dataset_json(const std::filesystem::path& path) {
     std::vector<char> scratch;
     const auto text = read_text(path, scratch, std::uint64_t{256} << 20);
+    expect_shallow_json(text, path);
     try {
         return from_json(Json::parse(text), path.string());
     } catch (const Json::exception& e) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/text/json.hpp"
 #include "ingest/dataset/dataset_json.hpp"
 
 namespace actformer::ingest {
@@ -77,7 +78,7 @@ void Workplace::load(const std::string& request) {
     bool all_there = true;
     while (std::getline(journal, line) &&
            !journal.eof()) {  // a line without its end was cut short by the kill
-        const auto json = Json::parse(line, nullptr, false);
+        const auto json = json_or_discarded<Json>(line);
         if (json.is_discarded()) break;
         finished_.push_back(tranche_from(json));
         whole += line + "\n";

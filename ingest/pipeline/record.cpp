@@ -4,17 +4,12 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/text/csv.hpp"
+#include "base/text/json.hpp"
 
 namespace actformer::ingest {
 namespace fs = std::filesystem;
 namespace {
-
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
 
 constexpr std::size_t shown = 3;  // names and reasons, of however many
 
@@ -82,8 +77,8 @@ std::string rejected_csv(const std::vector<Tranche>& tranches) {
     std::string csv = "file,kind,reason\n";
     for (const auto& tranche : tranches)
         for (const auto& [path, rejection] : tranche.left_out)
-            csv += fmt::format("{},{},{}\n", csv_field(path), kind_name(rejection.kind),
-                               csv_field(rejection.reason));
+            csv += fmt::format("{},{},{}\n", csv_cell(path), kind_name(rejection.kind),
+                               csv_cell(rejection.reason));
     return csv;
 }
 
@@ -116,7 +111,7 @@ bool read_record(const fs::path& out, const std::string& request, IngestSummary&
     const auto path = out / "ingest.json";
     if (!fs::exists(path)) return false;
     std::vector<char> scratch;
-    const auto json = nlohmann::json::parse(read_text(path, scratch, std::uint64_t{1} << 26), nullptr, false);
+    const auto json = json_or_discarded<nlohmann::json>(read_text(path, scratch, std::uint64_t{1} << 26));
     if (json.is_discarded() || !json.is_object() || json.value("request", "") != request) return false;
     summary.was_complete = true;
     summary.files = json.at("files");

@@ -1,10 +1,10 @@
 #include "ingest/synth/folder.hpp"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/text/loose_json.hpp"
 
 namespace actformer::ingest::synth {
 
@@ -32,9 +32,8 @@ void claim_folder(const fs::path& folder, std::string_view made_by, std::uint64_
     const nlohmann::ordered_json mine = {
         {"made_by", made_by}, {"version", ACTFORMER_VERSION}, {"seed", seed}};
     if (!fs::exists(file)) return write_file(file, mine.dump(2) + "\n");
-    std::ifstream in(file);
-    const auto theirs = nlohmann::json::parse(in, nullptr, false);
-    if (!theirs.is_object() || theirs != nlohmann::json(mine))
+    const auto theirs = loose::read(file);
+    if (theirs != mine)
         throw Error(
             "{}: the folder holds clips of another seed or version than seed {} of version {}; choose "
             "another with -o",

@@ -8,6 +8,7 @@
 #include "base/files/file.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
+#include "base/text/json.hpp"
 
 namespace actformer::model {
 namespace fs = std::filesystem;
@@ -99,7 +100,9 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& path) {
             array.values = file.read<float>(name);
         checkpoint.arrays.push_back(std::move(array));
     }
-    checkpoint.state = Json::parse(file.read_strings(progress).at(0));
+    const auto state = file.read_strings(progress).at(0);
+    expect_shallow_json(state, path);
+    checkpoint.state = Json::parse(state);
     return checkpoint;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/text/json.hpp"
 
 namespace actformer::model {
 
@@ -44,7 +45,7 @@ void RunFolder::rewind_log(std::uint64_t epochs) const {
     if (!file) return;
     std::string kept, line;
     while (std::getline(file, line) && !file.eof()) {
-        const auto json = nlohmann::json::parse(line, nullptr, false);
+        const auto json = json_or_discarded<nlohmann::json>(line);
         if (json.is_object() && json.contains("epoch") && json["epoch"].is_number_unsigned() &&
             json["epoch"] <= epochs)
             kept += line + "\n";

@@ -64,7 +64,7 @@ void add_trainer_keys(KeyTable<Settings>& table) {
         .add(&Settings::threads, {.name = "threads",
                                   .meaning = "processor threads; 0 takes all",
                                   .least = 0,
-                                  .most = 4096,
+                                  .most = 1024,
                                   .free = true});
 }
 

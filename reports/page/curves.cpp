@@ -4,6 +4,7 @@
 #include <fstream>
 #include <map>
 
+#include "base/text/json.hpp"
 #include "eval/scoring/score_report.hpp"
 #include "reports/tables/metric.hpp"
 
@@ -47,7 +48,7 @@ nlohmann::ordered_json read_curves(const std::filesystem::path& run) {
     std::map<std::uint64_t, Json> epochs;
     std::ifstream log(run / "log.jsonl");
     for (std::string line; std::getline(log, line);) {
-        const auto said = Json::parse(line, nullptr, false);
+        const auto said = json_or_discarded<Json>(line);
         if (!said.is_object() || !said.contains("epoch") || !said["epoch"].is_number_unsigned()) continue;
         auto& epoch = epochs[said["epoch"]];
         for (const auto& [key, value] : said.items())

@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+#include "base/text/csv.hpp"
 #include "base/text/printable.hpp"
 
 namespace actformer::reports {
@@ -35,13 +36,6 @@ Json group_json(const CellGroup& group, const PaperColumns& columns) {
     for (std::size_t m = 0; m < columns.metrics.size(); ++m)
         out["metrics"][columns.metrics[m].name] = figures_json(group.figures[m]);
     return out;
-}
-
-std::string csv_text(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
 }
 
 /// mean,ci95,repeats,paper,paper_ci95; what there is not is empty.
@@ -170,9 +164,9 @@ std::string to_csv(const std::vector<FilledTable>& tables) {
                 const auto& columns = table.paper->columns[c];
                 for (std::size_t m = 0; m < columns.metrics.size(); ++m)
                     out += fmt::format(
-                        "{},{},{},{},{},{},{}\n", table.paper->id, csv_text(table.paper->rows[r].name),
-                        csv_text(columns.dataset), columns.metrics[m].name, state_of(group, m),
-                        csv_figures(group.figures[m]), csv_text(group.row ? group.row->origin.text() : ""));
+                        "{},{},{},{},{},{},{}\n", table.paper->id, csv_cell(table.paper->rows[r].name),
+                        csv_cell(columns.dataset), columns.metrics[m].name, state_of(group, m),
+                        csv_figures(group.figures[m]), csv_cell(group.row ? group.row->origin.text() : ""));
             }
     return out;
 }

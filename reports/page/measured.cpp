@@ -39,7 +39,13 @@ Json read_results(const fs::path& folder) {
 /// What the scores of a run that is done say; null and a notice where they cannot be read.
 Json read_scores(const MeasuredRun& run, const std::string& row, std::vector<std::string>& notices) {
     if (run.status != "done") return {};
-    auto json = loose::read(run.scores);
+    Json json;
+    try {
+        json = loose::read(run.scores);
+    } catch (const Error& e) {
+        notices.push_back(fmt::format("{}, seed {}: {}", row, run.seed, e.what()));
+        return {};
+    }
     if (json.is_object()) return json;
     notices.push_back(fmt::format("{}, seed {}: {} is {}; `actformer sweep` again makes it anew", row,
                                   run.seed, run.scores.string(),

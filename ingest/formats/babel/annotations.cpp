@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/text/html.hpp"
+#include "base/text/json.hpp"
 #include "base/text/loose_json.hpp"
 #include "base/text/printable.hpp"
 
@@ -65,6 +66,9 @@ Sequence sequence(const std::string& id, const Json& json) {
 std::variant<Annotations, Rejection> read_annotations(std::string_view text) {
     if (is_html(text)) return Rejection{Rejection::Kind::broken, html_in_place_of("annotations")};
     Json json;
+    if (const auto line = line_too_deep(text))
+        return Rejection{Rejection::Kind::broken,
+                         fmt::format("line {}: lists and objects more than {} deep", *line, deepest_json)};
     try {
         json = Json::parse(text);
     } catch (const Json::exception& e) {
