@@ -12,9 +12,11 @@
 #include "base/files/file.hpp"
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
+#include "base/process/process.hpp"
 #include "base/process/usage.hpp"
 #include "base/threads/parallel.hpp"
 #include "cli/format.hpp"
+#include "cli/say.hpp"
 #include "ingest/export/npz/npz_writer.hpp"
 #include "ingest/formats/babel/babel_format.hpp"
 #include "ingest/pipeline/pipeline.hpp"
@@ -134,15 +136,18 @@ struct Took {
 std::optional<Took> run_peer(const BabelBench& bench, const fs::path& folder, std::uint64_t clips) {
     if (!fs::exists(bench.peer)) return {};
     write_whole(folder / "categories", categories);
-    const auto line =
-        fmt::format("'{}' '{}' '{}' '{}' '{}' '{}' {}", bench.python, bench.peer, (folder / "raw").string(),
-                    (folder / "raw/train.json").string(), (folder / "peer.h5").string(),
-                    (folder / "categories").string(), thread_count(bench.threads));
-    const auto said = output_of(line);
+    const std::vector<std::string> command{bench.python,
+                                           bench.peer,
+                                           (folder / "raw").string(),
+                                           (folder / "raw/train.json").string(),
+                                           (folder / "peer.h5").string(),
+                                           (folder / "categories").string(),
+                                           std::to_string(thread_count(bench.threads))};
+    const auto said = output_of(command);
     double count = 0;
     Took took;
     if (!said || std::sscanf(said->c_str(), "%lf %lf %lf", &count, &took.seconds, &took.busy) != 3)
-        throw Error("{} failed", line);
+        throw Error("{} failed", command_line(command));
     if (count != static_cast<double>(clips))
         throw Error("{} made {} clips, not {}", bench.peer, count, clips);
     return took;
@@ -181,17 +186,16 @@ void bench_babel(const BabelBench& bench) {
         json["cpu_ratio"] = peer->busy / ours.busy;
     }
     if (!bench.json) {
-        fmt::print("{:.2f} hours of motion ({}) -> {}, {}\n", motion_hours(made), bytes(best.text_bytes),
-                   counted(made_clips.clips, "clip"), counted(made_clips.frames, "frame"));
-        fmt::print("actformer        {:>8.3f} s, {:>7.3f} s of processors, {:.2f} GB/s\n", ours.seconds,
-                   ours.busy, gigabytes);
+        say("{:.2f} hours of motion ({}) -> {}, {}\n", motion_hours(made), bytes(best.text_bytes),
+            counted(made_clips.clips, "clip"), counted(made_clips.frames, "frame"));
+        say("actformer        {:>8.3f} s, {:>7.3f} s of processors, {:.2f} GB/s\n", ours.seconds, ours.busy,
+            gigabytes);
         if (peer)
-            fmt::print(
-                "NumPy and SciPy  {:>8.3f} s, {:>7.3f} s of processors, on as many threads\n"
+            say("NumPy and SciPy  {:>8.3f} s, {:>7.3f} s of processors, on as many threads\n"
                 "ratio            {:>8.1f}    {:>7.1f}\n",
                 peer->seconds, peer->busy, peer->seconds / ours.seconds, peer->busy / ours.busy);
         else
-            fmt::print("peer not at hand; name it with --peer\n");
+            say("peer not at hand; name it with --peer\n");
     }
     if (bench.many_hours > 0) {
         const auto many = files_of(bench.many_hours);
@@ -201,9 +205,8 @@ void bench_babel(const BabelBench& bench) {
                         {"wall_seconds", summary.seconds.wall},
                         {"peak_memory_mib", peak_memory_mib()}};
         if (!bench.json)
-            fmt::print("{:.1f} hours of linked motion ({}) in {:.1f} s, {:.0f} MiB of memory at most\n",
-                       motion_hours(many), bytes(summary.text_bytes), summary.seconds.wall,
-                       peak_memory_mib());
+            say("{:.1f} hours of linked motion ({}) in {:.1f} s, {:.0f} MiB of memory at most\n",
+                motion_hours(many), bytes(summary.text_bytes), summary.seconds.wall, peak_memory_mib());
     }
     if (bench.json) fmt::print("{}\n", json.dump(2));
 }

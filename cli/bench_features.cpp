@@ -13,6 +13,7 @@
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
 #include "cli/bench.hpp"
+#include "cli/say.hpp"
 #include "eval/stgcn/operations.hpp"
 #include "eval/stgcn/recogniser.hpp"
 #include "eval/stgcn/tuning.hpp"
@@ -66,8 +67,9 @@ Breakdown time_steps(kernels::Device& device, const eval::Weights& weights, cons
 }
 
 /// The number that a command prints; none where it fails.
-std::optional<double> ask(const std::string& line) {
-    const auto said = output_of(line);
+std::optional<double> ask(const std::vector<std::string>& command,
+                          const std::map<std::string, std::string>& more) {
+    const auto said = output_of(command, more);
     double value = 0;
     if (!said || std::sscanf(said->c_str(), "%lf", &value) != 1) return {};
     return value;
@@ -95,16 +97,17 @@ class PeerRunner {
         if (!folder_) return;
         const auto onnx = folder_->path() / "network.onnx";
         const bool first = !fs::exists(onnx);
-        keep(best.torch,
-             ask(fmt::format("OMP_NUM_THREADS=2 '{}' '{}/stgcn.py' speed '{}' --frames {} --batch {} {}",
-                             options_.python, options_.peers, (folder_->path() / "weights.h5").string(),
-                             options_.frames, options_.batch,
-                             first ? fmt::format("--onnx '{}'", onnx.string()) : "")));
+        std::vector<std::string> torch{options_.python, options_.peers + "/stgcn.py",
+                                       "speed",         (folder_->path() / "weights.h5").string(),
+                                       "--frames",      std::to_string(options_.frames),
+                                       "--batch",       std::to_string(options_.batch)};
+        if (first) torch.insert(torch.end(), {"--onnx", onnx.string()});
+        keep(best.torch, ask(torch, {{"OMP_NUM_THREADS", "2"}}));
         if (options_.node_modules.empty() || !fs::exists(onnx)) return;
-        keep(best.onnx,
-             ask(fmt::format("NODE_PATH='{}' node '{}/stgcn_ort.js' '{}' {} {} {} {}", options_.node_modules,
-                             options_.peers, onnx.string(), weights_.channels, options_.frames,
-                             weights_.joints(), options_.batch)));
+        keep(best.onnx, ask({"node", options_.peers + "/stgcn_ort.js", onnx.string(),
+                             std::to_string(weights_.channels), std::to_string(options_.frames),
+                             std::to_string(weights_.joints()), std::to_string(options_.batch)},
+                            {{"NODE_PATH", options_.node_modules}}));
     }
 
   private:
@@ -124,45 +127,45 @@ struct FeatureTimes {
 };
 
 void print_breakdown(const Breakdown& steps) {
-    fmt::print("milliseconds a batch by layer and step, each step waited for:\n  layer");
-    for (const auto* name : step_names) fmt::print("{:>9}", name);
-    fmt::print("{:>9}\n", "all");
+    say("milliseconds a batch by layer and step, each step waited for:\n  layer");
+    for (const auto* name : step_names) say("{:>9}", name);
+    say("{:>9}\n", "all");
     std::array<double, step_names.size() + 1> sums{};
     for (std::size_t l = 0; l < steps.size(); ++l) {
         double all = 0;
-        fmt::print("  {:>5}", l);
+        say("  {:>5}", l);
         for (std::size_t s = 0; s < step_names.size(); ++s) {
-            fmt::print("{:>9.2f}", steps[l][s]);
+            say("{:>9.2f}", steps[l][s]);
             all += steps[l][s];
             sums[s] += steps[l][s];
         }
-        fmt::print("{:>9.2f}\n", all);
+        say("{:>9.2f}\n", all);
         sums.back() += all;
     }
-    fmt::print("    all");
-    for (const auto sum : sums) fmt::print("{:>9.2f}", sum);
-    fmt::print("\n");
+    say("    all");
+    for (const auto sum : sums) say("{:>9.2f}", sum);
+    say("\n");
 }
 
 void print_text(const FeatureTimes& r, const BenchFeaturesOptions& options, const kernels::Device& device,
                 const kernels::Tiles& tiles) {
-    fmt::print("{}: {}\n", device.info().name, describe(tiles));
-    fmt::print("actformer          {:>8.1f} sequences/s of {} frames, batches of {}\n", r.rate,
-               options.frames, options.batch);
+    say("{}: {}\n", device.info().name, describe(tiles));
+    say("actformer          {:>8.1f} sequences/s of {} frames, batches of {}\n", r.rate, options.frames,
+        options.batch);
     const auto peer = [&](const char* name, std::optional<double> rate, const char* how) {
         if (rate)
-            fmt::print("{:<18} {:>8.1f} sequences/s, ratio {:.2f}\n", name, *rate, r.rate / *rate);
+            say("{:<18} {:>8.1f} sequences/s, ratio {:.2f}\n", name, *rate, r.rate / *rate);
         else
-            fmt::print("{:<18} not measured: {}\n", name, how);
+            say("{:<18} not measured: {}\n", name, how);
     };
     peer("PyTorch, eager", r.peers.torch,
          "name the reference programs with --peers; they need python3-torch");
     peer("ONNX Runtime", r.peers.onnx, "name the folder of onnxruntime-node with --node-modules");
-    fmt::print("peak multiply-add  {:>8.1f} GFLOP/s\n", r.peak);
-    fmt::print("multiplied         {:>8.1f} GFLOP/s, {:.0f} % of the peak ({:.2f} GFLOP a sequence)\n",
-               r.rate * r.multiplied, 100 * r.rate * r.multiplied / r.peak, r.multiplied);
-    fmt::print("by direct sums     {:>8.1f} GFLOP/s, {:.0f} % of the peak ({:.2f} GFLOP a sequence)\n",
-               r.rate * r.direct, 100 * r.rate * r.direct / r.peak, r.direct);
+    say("peak multiply-add  {:>8.1f} GFLOP/s\n", r.peak);
+    say("multiplied         {:>8.1f} GFLOP/s, {:.0f} % of the peak ({:.2f} GFLOP a sequence)\n",
+        r.rate * r.multiplied, 100 * r.rate * r.multiplied / r.peak, r.multiplied);
+    say("by direct sums     {:>8.1f} GFLOP/s, {:.0f} % of the peak ({:.2f} GFLOP a sequence)\n",
+        r.rate * r.direct, 100 * r.rate * r.direct / r.peak, r.direct);
     print_breakdown(r.steps);
 }
 
@@ -216,10 +219,10 @@ void run(const BenchFeaturesOptions& options) {
     if (options.tune) {
         const auto tiles = eval::tune(device, weights, options.batch, options.frames,
                                       [&](const kernels::Tiles& t, double rate) {
-                                          fmt::print(stderr, "{:>8.1f} sequences/s  {}\n", rate, describe(t));
+                                          say(stderr, "{:>8.1f} sequences/s  {}\n", rate, describe(t));
                                       });
         eval::save_tiles(device.info(), tiles);
-        fmt::print(stderr, "kept in {}: {}\n", eval::tiles_file().string(), describe(tiles));
+        say(stderr, "kept in {}: {}\n", eval::tiles_file().string(), describe(tiles));
     }
     const auto tiles = eval::load_tiles(device.info());
     const auto result = measure(device, weights, tiles, options);

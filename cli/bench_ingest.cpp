@@ -12,11 +12,13 @@
 #include "base/error.hpp"
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
+#include "base/process/process.hpp"
 #include "base/process/usage.hpp"
 #include "cli/bench.hpp"
 #include "cli/bench_babel.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "cli/say.hpp"
 #include "ingest/formats/motions/motions_format.hpp"
 #include "ingest/formats/ntu/actions.hpp"
 #include "ingest/formats/ntu/ntu_format.hpp"
@@ -67,9 +69,8 @@ void make_raw(const BenchIngestOptions& options, const fs::path& raw) {
     synth.actions = one_person_actions();
     ingest::synth::synthesise_ntu(synth);
     if (!options.json)
-        fmt::print("{} copies of {}, {} synthetic clips\n", grouped(copies),
-                   real ? real->filename().string() : "a real clip (none at hand)",
-                   grouped(options.clips - copies));
+        say("{} copies of {}, {} synthetic clips\n", grouped(copies),
+            real ? real->filename().string() : "a real clip (none at hand)", grouped(options.clips - copies));
 }
 
 ingest::IngestSummary run_ours(const BenchIngestOptions& options, const fs::path& raw, const fs::path& out,
@@ -104,11 +105,12 @@ Measured best_of_ours(const BenchIngestOptions& options, const Scratch& scratch,
 std::optional<double> run_peer(const BenchIngestOptions& options, const Scratch& scratch) {
     const std::string peer = options.peer.empty() ? "../shared/reference/preprocess.py" : options.peer;
     if (!fs::exists(peer)) return {};
-    const auto line = fmt::format("'{}' '{}' '{}' '{}'", options.python, peer,
-                                  (scratch.path() / "raw").string(), (scratch.path() / "peer.h5").string());
-    const auto said = output_of(line);
+    const std::vector<std::string> command{options.python, peer, (scratch.path() / "raw").string(),
+                                           (scratch.path() / "peer.h5").string()};
+    const auto said = output_of(command);
     double clips = 0, seconds = 0;
-    if (!said || std::sscanf(said->c_str(), "%lf %lf", &clips, &seconds) != 2) throw Error("{} failed", line);
+    if (!said || std::sscanf(said->c_str(), "%lf %lf", &clips, &seconds) != 2)
+        throw Error("{} failed", command_line(command));
     return clips / seconds;
 }
 
@@ -144,25 +146,23 @@ nlohmann::ordered_json to_json(const ingest::IngestSummary& s) {
 void print_text(const Measured& ours, std::optional<double> peer) {
     const auto& s = ours.summary;
     const auto& t = s.seconds;
-    fmt::print("actformer ingest   {:>8.0f} clips/s   {:.2f} GB/s of text   ({} clips, {} in {:.2f} s)\n",
-               rate(s), static_cast<double>(s.text_bytes) / t.wall / 1e9, grouped(s.files),
-               bytes(s.text_bytes), t.wall);
+    say("actformer ingest   {:>8.0f} clips/s   {:.2f} GB/s of text   ({} clips, {} in {:.2f} s)\n", rate(s),
+        static_cast<double>(s.text_bytes) / t.wall / 1e9, grouped(s.files), bytes(s.text_bytes), t.wall);
     if (peer)
-        fmt::print("reference          {:>8.0f} clips/s\nratio              {:>8.1f}\n", *peer,
-                   rate(s) / *peer);
+        say("reference          {:>8.0f} clips/s\nratio              {:>8.1f}\n", *peer, rate(s) / *peer);
     else
-        fmt::print("reference          not at hand; name it with --peer\n");
-    fmt::print("processor time     {:>8.2f} s, {:.2f} cores busy, {:.0f} us a clip\n", ours.cpu,
-               ours.cpu / t.wall, 1e6 * ours.cpu / static_cast<double>(s.files));
-    fmt::print("where the time goes, in seconds of a thread, waits included (stages overlap):\n");
+        say("reference          not at hand; name it with --peer\n");
+    say("processor time     {:>8.2f} s, {:.2f} cores busy, {:.0f} us a clip\n", ours.cpu, ours.cpu / t.wall,
+        1e6 * ours.cpu / static_cast<double>(s.files));
+    say("where the time goes, in seconds of a thread, waits included (stages overlap):\n");
     const std::pair<const char*, double> stages[]{{"list the source", t.walk},
                                                   {"read files", t.read},
                                                   {"parse text, checksum", t.parse},
                                                   {"clean on the device", t.clean},
                                                   {"write shards", t.write}};
     for (const auto& [name, seconds] : stages)
-        fmt::print("  {:<22}{:>7.3f}  {}\n", name, seconds,
-                   std::string(static_cast<std::size_t>(40 * seconds / (t.wall * 2)), '#'));
+        say("  {:<22}{:>7.3f}  {}\n", name, seconds,
+            std::string(static_cast<std::size_t>(40 * seconds / (t.wall * 2)), '#'));
 }
 
 /// A .npy file of clips of 60 frames and 25 joints, `bytes` of float32 or so.
@@ -210,9 +210,9 @@ void run_motions(const BenchIngestOptions& options) {
     if (options.json)
         fmt::print("{}\n", json.dump(2));
     else
-        fmt::print("{} of .npy in {:.2f} s: {:.2f} GB/s, {:.0f} MiB of memory at most\n",
-                   bytes(best.text_bytes), best.seconds.wall,
-                   static_cast<double>(best.text_bytes) / best.seconds.wall / 1e9, peak_memory_mib());
+        say("{} of .npy in {:.2f} s: {:.2f} GB/s, {:.0f} MiB of memory at most\n", bytes(best.text_bytes),
+            best.seconds.wall, static_cast<double>(best.text_bytes) / best.seconds.wall / 1e9,
+            peak_memory_mib());
 }
 
 void run(const BenchIngestOptions& options) {
@@ -236,8 +236,8 @@ void run(const BenchIngestOptions& options) {
         json["many"] = to_json(many);
         json["many"]["peak_memory_mib"] = peak_memory_mib();
         if (!options.json)
-            fmt::print("{} clips in {}: {:.0f} clips/s, {:.0f} MiB of memory at most\n", grouped(many.files),
-                       duration(many.seconds.wall), rate(many), peak_memory_mib());
+            say("{} clips in {}: {:.0f} clips/s, {:.0f} MiB of memory at most\n", grouped(many.files),
+                duration(many.seconds.wall), rate(many), peak_memory_mib());
     }
     if (options.json) fmt::print("{}\n", json.dump(2));
 }
@@ -275,7 +275,8 @@ void add_bench_ingest(CLI::App& bench) {
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
     command->add_option("--device", options->device, "OpenCL device: a number, gpu, cpu, or part of a name");
-    command->add_option("--threads", options->threads, "Threads that read and parse (default: all cores)");
+    command->add_option("--threads", options->threads, "Threads that read and parse (default: all cores)")
+        ->check(CLI::Range(0U, most_threads));
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer bench ingest\n  actformer bench ingest --many 100000\n"

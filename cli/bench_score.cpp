@@ -12,7 +12,9 @@
 #include "base/error.hpp"
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
+#include "base/process/process.hpp"
 #include "cli/bench.hpp"
+#include "cli/say.hpp"
 #include "eval/metrics/fid.hpp"
 #include "eval/scoring/features_file.hpp"
 
@@ -74,10 +76,11 @@ std::optional<Peer> run_peer(const BenchScoreOptions& options, const eval::Sampl
     const auto real_file = scratch.path() / "real.h5", made_file = scratch.path() / "made.h5";
     write(real_file, real);
     write(made_file, made);
-    const auto line = fmt::format("'{}' '{}' '{}' '{}'", options.python, options.peer, real_file.string(),
-                                  made_file.string());
-    const auto json = nlohmann::json::parse(output_of(line).value_or(""), nullptr, false);
-    if (!json.is_object()) throw Error("{} failed; it takes python3 with scipy and h5py", line);
+    const std::vector<std::string> command{options.python, options.peer, real_file.string(),
+                                           made_file.string()};
+    const auto json = nlohmann::json::parse(output_of(command).value_or(""), nullptr, false);
+    if (!json.is_object())
+        throw Error("{} failed; it takes python3 with scipy and h5py", command_line(command));
     return Peer{json["mean_seconds"], json["whole_seconds"], json["whole"], json["distances"]};
 }
 
@@ -144,20 +147,20 @@ void print_json(const ScoreTimes& r, const BenchScoreOptions& options) {
 void run(const BenchScoreOptions& options) {
     const auto r = measure(options);
     if (options.json) return print_json(r, options);
-    fmt::print("{} classes of {} real and {} generated samples in {} dimensions\n", options.classes,
-               options.real, options.generated, options.dimensions);
+    say("{} classes of {} real and {} generated samples in {} dimensions\n", options.classes, options.real,
+        options.generated, options.dimensions);
     const auto line = [&](const char* name, double ours, std::optional<double> theirs) {
-        fmt::print("{}  actformer {:>7.3f} s", name, ours);
-        if (theirs) fmt::print("   SciPy's sqrtm {:>7.3f} s   ratio {:.1f}", *theirs, *theirs / ours);
-        fmt::print("\n");
+        say("{}  actformer {:>7.3f} s", name, ours);
+        if (theirs) say("   SciPy's sqrtm {:>7.3f} s   ratio {:.1f}", *theirs, *theirs / ours);
+        say("\n");
     };
     line("FIDm", r.mean_seconds, r.peer ? std::optional(r.peer->mean_seconds) : std::nullopt);
     line("FIDw", r.whole_seconds, r.peer ? std::optional(r.peer->whole_seconds) : std::nullopt);
     if (r.peer)
-        fmt::print("the largest difference of a distance is {:.1e} of it\n", r.difference);
+        say("the largest difference of a distance is {:.1e} of it\n", r.difference);
     else
-        fmt::print("SciPy's sqrtm is not measured; name {} with --peer\n",
-                   fs::path(options.peer).filename().string());
+        say("SciPy's sqrtm is not measured; name {} with --peer\n",
+            fs::path(options.peer).filename().string());
 }
 
 }  // namespace

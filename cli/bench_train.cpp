@@ -4,13 +4,18 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/process/peer.hpp"
+#include "base/process/process.hpp"
 #include "cli/bench.hpp"
+#include "cli/say.hpp"
 #include "model/generators/actformer/speed.hpp"
 #include "model/generators/method_speed.hpp"
 
@@ -33,17 +38,33 @@ using Times = std::array<double, 3>;
 constexpr std::array<const char*, 3> names{"discriminator step", "generator step", "9,400 motions"};
 constexpr std::array<double, 3> shown_times{1, 1, 94};
 
+/// The peer's command line: Python, its program, the networks' sizes, and what more it takes.
+std::vector<std::string> peer_command(const BenchTrainOptions& options,
+                                      const std::vector<std::string>& program,
+                                      const std::vector<std::string>& more) {
+    const auto& r = options.request;
+    std::vector<std::string> command{options.python};
+    command.insert(command.end(), program.begin(), program.end());
+    const std::pair<const char*, std::uint64_t> sizes[] = {
+        {"--persons", r.persons}, {"--classes", r.classes}, {"--frames", r.frames}, {"--batch", r.batch}};
+    for (const auto& [name, size] : sizes) command.insert(command.end(), {name, std::to_string(size)});
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+}
+
+std::map<std::string, std::string> on_threads(std::uint64_t threads) {
+    return {{"OMP_NUM_THREADS", std::to_string(threads)}};
+}
+
 /// The peer's three times, its own best of three; none where it cannot run.
 std::optional<Times> ask_peer(const BenchTrainOptions& options) {
     const auto program = fs::path(options.peers) / "actformer_speed.py";
     if (!fs::exists(program))
         throw Error("{}: holds no actformer_speed.py; --peers names the folder of the reference programs",
                     options.peers);
-    const auto& r = options.request;
-    const auto line = fmt::format(
-        "OMP_NUM_THREADS={} '{}' '{}' --persons {} --classes {} --frames {} --batch {} --repeats 3",
-        r.threads, options.python, program.string(), r.persons, r.classes, r.frames, r.batch);
-    const auto said = output_of(line).value_or("");
+    const auto said = output_of(peer_command(options, {program.string()}, {"--repeats", "3"}),
+                                on_threads(options.request.threads))
+                          .value_or("");
     const auto last = said.substr(said.substr(0, said.find_last_not_of('\n') + 1).rfind('\n') + 1);
     Times times{};
     if (std::sscanf(last.c_str(), "%lf %lf %lf", &times[0], &times[1], &times[2]) != 3) return {};
@@ -57,31 +78,31 @@ struct Result {
 };
 
 void print_layers(const model::StepTime& step, const char* name) {
-    fmt::print("\nmilliseconds a {}: {:.1f}\n  {:<32} {:>9} {:>9}\n", name, 1e3 * step.seconds, "layer",
-               "forward", "backward");
+    say("\nmilliseconds a {}: {:.1f}\n  {:<32} {:>9} {:>9}\n", name, 1e3 * step.seconds, "layer", "forward",
+        "backward");
     double left = 1e3 * step.seconds;
     for (const auto& layer : step.layers) {
-        fmt::print("  {:<32} {:>9.2f} {:>9.2f}\n", layer.layer, layer.forward, layer.backward);
+        say("  {:<32} {:>9.2f} {:>9.2f}\n", layer.layer, layer.forward, layer.backward);
         left -= layer.forward + layer.backward;
     }
-    fmt::print("  {:<32} {:>9.2f}\n", "the rest", left);
+    say("  {:<32} {:>9.2f}\n", "the rest", left);
 }
 
 void print_text(const Result& result, const BenchTrainOptions& options) {
     const auto& r = options.request;
-    fmt::print("{}\n{} persons, {} classes, {} frames, batches of {}\n", result.machine, r.persons, r.classes,
-               r.frames, r.batch);
-    fmt::print("{:<20} {:>10} {:>15} {:>7}\n", "seconds", "actformer", "PyTorch, eager", "ratio");
+    say("{}\n{} persons, {} classes, {} frames, batches of {}\n", result.machine, r.persons, r.classes,
+        r.frames, r.batch);
+    say("{:<20} {:>10} {:>15} {:>7}\n", "seconds", "actformer", "PyTorch, eager", "ratio");
     for (std::size_t i = 0; i < names.size(); ++i) {
         const double ours = shown_times[i] * result.ours[i]->seconds;
         if (result.peer)
-            fmt::print("{:<20} {:>10.3f} {:>15.3f} {:>7.2f}\n", names[i], ours,
-                       shown_times[i] * (*result.peer)[i], shown_times[i] * (*result.peer)[i] / ours);
+            say("{:<20} {:>10.3f} {:>15.3f} {:>7.2f}\n", names[i], ours, shown_times[i] * (*result.peer)[i],
+                shown_times[i] * (*result.peer)[i] / ours);
         else
-            fmt::print("{:<20} {:>10.3f} {:>15}\n", names[i], ours, "not measured");
+            say("{:<20} {:>10.3f} {:>15}\n", names[i], ours, "not measured");
     }
     if (!result.peer)
-        fmt::print("name the folder of the reference programs with --peers; they need python3-torch\n");
+        say("name the folder of the reference programs with --peers; they need python3-torch\n");
     print_layers(*result.ours[0], "discriminator step");
     print_layers(*result.ours[1], "generator step");
     print_layers(*result.ours[2], "hundred motions");
@@ -127,16 +148,13 @@ using MethodTimes = std::array<double, 4>;
 
 std::optional<MethodTimes> ask_method_peer(const BenchTrainOptions& options) {
     if (options.program.empty()) return {};
-    const auto& r = options.request;
-    const auto line = fmt::format(
-        "OMP_NUM_THREADS={} '{}' '{}' '{}' --persons {} --classes {} --frames {} --batch {} --rounds {}",
-        r.threads, options.python, options.program, options.peers, r.persons, r.classes, r.frames, r.batch,
-        options.rounds);
-    const auto said = output_of(line);
+    const auto command =
+        peer_command(options, {options.program, options.peers}, {"--rounds", std::to_string(options.rounds)});
+    const auto said = output_of(command, on_threads(options.request.threads));
     MethodTimes times{};
     if (!said ||
         std::sscanf(said->c_str(), "%lf %lf %lf %lf", &times[0], &times[1], &times[2], &times[3]) != 4)
-        throw Error("{} failed", line);
+        throw Error("{} failed", command_line(command));
     return times;
 }
 
@@ -152,14 +170,13 @@ void print_method(const BenchTrainOptions& options, const MethodTimes& ours,
         }
         return fmt::print("{}\n", out.dump(2));
     }
-    fmt::print("{}\n{:<24} {:>10} {:>15} {:>7}\n", machine, "seconds, " + options.method, "actformer",
-               "PyTorch, eager", "ratio");
+    say("{}\n{:<24} {:>10} {:>15} {:>7}\n", machine, "seconds, " + options.method, "actformer",
+        "PyTorch, eager", "ratio");
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (peer)
-            fmt::print("{:<24} {:>10.3f} {:>15.3f} {:>7.2f}\n", rows[i], ours[i], (*peer)[i],
-                       (*peer)[i] / ours[i]);
+            say("{:<24} {:>10.3f} {:>15.3f} {:>7.2f}\n", rows[i], ours[i], (*peer)[i], (*peer)[i] / ours[i]);
         else
-            fmt::print("{:<24} {:>10.3f} {:>15}\n", rows[i], ours[i], "not measured");
+            say("{:<24} {:>10.3f} {:>15}\n", rows[i], ours[i], "not measured");
 }
 
 /// Any method, through what all of them have: a step of training, and motions.
@@ -193,7 +210,7 @@ void add_bench_train(CLI::App& bench) {
     number("--frames", options->request.frames, "Frames of a motion", 16, 4096);
     number("--batch", options->request.batch, "Motions of a step", 1, 65536);
     command->add_option("--threads", options->request.threads, "Processor threads, the peer's too")
-        ->check(CLI::Range(1, 4096))
+        ->check(CLI::Range(1U, most_threads))
         ->capture_default_str();
     command->add_option("--rounds", options->rounds, "Runs a turn of which the best counts")
         ->check(CLI::Range(1, 1000))

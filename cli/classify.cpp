@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files/file.hpp"
+#include "base/text/csv.hpp"
 #include "cli/commands.hpp"
 #include "cli/motion_options.hpp"
 #include "cli/progress.hpp"
+#include "cli/say.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -23,21 +25,14 @@ struct ClassifyOptions : MotionOptions {
     bool json = false;
 };
 
-/// A field of a CSV line (RFC 4180).
-std::string field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
-}
-
 std::string csv(const Clips& clips, const Names& names) {
     std::string out = "clip,windows,class,name,probability,runner_up,runner_up_probability\n";
     for (const auto& clip : clips) {
-        out += fmt::format("{},{},{},{},{:.6f},", field(clip.clip), clip.windows, clip.best.label + 1,
-                           field(names[clip.best.label]), clip.best.probability);
+        out += fmt::format("{},{},{},{},{:.6f},", csv_cell(clip.clip), clip.windows, clip.best.label + 1,
+                           csv_cell(names[clip.best.label]), clip.best.probability);
         if (clip.runner_up)
-            out += fmt::format("{},{:.6f}", field(names[clip.runner_up->label]), clip.runner_up->probability);
+            out +=
+                fmt::format("{},{:.6f}", csv_cell(names[clip.runner_up->label]), clip.runner_up->probability);
         else
             out += ",";
         out += "\n";
@@ -64,13 +59,13 @@ void print_table(const Clips& clips, const Names& names) {
     std::size_t clip_width = 4, name_width = 5;
     for (const auto& clip : clips) clip_width = std::max(clip_width, clip.clip.size());
     for (const auto& name : names) name_width = std::max(name_width, name.size());
-    fmt::print("{:<{}}  {:<{}}  probability  runner-up\n", "clip", clip_width, "class", name_width);
+    say("{:<{}}  {:<{}}  probability  runner-up\n", "clip", clip_width, "class", name_width);
     for (const auto& clip : clips) {
-        fmt::print("{:<{}}  {:<{}}  {:>9.1f} %", clip.clip, clip_width, names[clip.best.label], name_width,
-                   100 * clip.best.probability);
+        say("{:<{}}  {:<{}}  {:>9.1f} %", clip.clip, clip_width, names[clip.best.label], name_width,
+            100 * clip.best.probability);
         if (clip.runner_up)
-            fmt::print("  {}, {:.1f} %", names[clip.runner_up->label], 100 * clip.runner_up->probability);
-        fmt::print("\n");
+            say("  {}, {:.1f} %", names[clip.runner_up->label], 100 * clip.runner_up->probability);
+        say("\n");
     }
 }
 

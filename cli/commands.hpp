@@ -24,6 +24,9 @@ void add_generate(CLI::App& app);
 void add_import(CLI::App& app);
 void add_model(CLI::App& app);
 
+/// More threads than this help no work here, and may be more than a machine has for all that runs on it.
+constexpr unsigned most_threads = 1024;
+
 /// Ends a command's --help with lines that can be typed as they stand.
 inline void examples(CLI::App* command, const std::string& lines) {
     command->footer("Examples:\n" + lines);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/say.hpp"
 #include "kernels/device.hpp"
 
 namespace actformer::cli {
@@ -11,15 +12,14 @@ namespace {
 
 void print_table(const std::vector<kernels::DeviceInfo>& devices, std::size_t chosen) {
     for (const auto& d : devices) {
-        fmt::print("{} {}  {}\n", d.index == chosen ? "*" : " ", d.index, d.name);
-        fmt::print("     {}, {} compute units at {} MHz, {:.1f} GiB memory{}, largest buffer {:.1f} GiB\n",
-                   d.type, d.compute_units, d.clock_mhz, static_cast<double>(d.memory) / (1 << 30),
-                   d.shares_memory ? " shared with the host" : "",
-                   static_cast<double>(d.max_allocation) / (1 << 30));
-        fmt::print("     {} ({}, driver {})\n", d.version, d.platform, d.driver);
+        say("{} {}  {}\n", d.index == chosen ? "*" : " ", d.index, d.name);
+        say("     {}, {} compute units at {} MHz, {:.1f} GiB memory{}, largest buffer {:.1f} GiB\n", d.type,
+            d.compute_units, d.clock_mhz, static_cast<double>(d.memory) / (1 << 30),
+            d.shares_memory ? " shared with the host" : "",
+            static_cast<double>(d.max_allocation) / (1 << 30));
+        say("     {} ({}, driver {})\n", d.version, d.platform, d.driver);
     }
-    fmt::print(
-        "* is used unless --device or ACTFORMER_DEVICE says otherwise (a number, gpu, cpu, or part of a "
+    say("* is used unless --device or ACTFORMER_DEVICE says otherwise (a number, gpu, cpu, or part of a "
         "name)\n");
 }
 

@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "cli/say.hpp"
 #include "ingest/export/export_format.hpp"
 
 namespace actformer::cli {
@@ -20,9 +21,9 @@ struct ExportOptions {
 
 void print_text(const ingest::ExportSummary& summary, const ExportOptions& options) {
     const auto folder = summary.files.size() != 1 || summary.files[0] != options.request.out;
-    fmt::print("{}: {}, {}{}\n", options.request.out.string(), counted(summary.clips, "clip"),
-               counted(summary.frames, "frame"), folder ? ", " + counted(summary.files.size(), "file") : "");
-    for (const auto& note : summary.notes) fmt::print("  {}\n", note);
+    say("{}: {}, {}{}\n", options.request.out.string(), counted(summary.clips, "clip"),
+        counted(summary.frames, "frame"), folder ? ", " + counted(summary.files.size(), "file") : "");
+    for (const auto& note : summary.notes) say("  {}\n", note);
 }
 
 void print_json(const ingest::ExportSummary& summary) {

@@ -11,6 +11,7 @@
 #include "cli/format.hpp"
 #include "cli/motion_options.hpp"
 #include "cli/progress.hpp"
+#include "cli/say.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -32,8 +33,7 @@ void print(const FeaturesOptions& options, const eval::FeaturesSummary& s) {
         fmt::print("{}\n", out.dump(2));
         return;
     }
-    fmt::print(
-        "{}: {} of {} features and {} logits{}\n", options.out.string(), counted(s.sequences, "sequence"),
+    say("{}: {} of {} features and {} logits{}\n", options.out.string(), counted(s.sequences, "sequence"),
         s.features, s.classes,
         s.accuracy ? fmt::format("; {:.1f} % recognised as labelled", 100 * *s.accuracy) : "; no labels");
 }

@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "cli/say.hpp"
 #include "model/generators/generate.hpp"
 
 namespace actformer::cli {
@@ -34,9 +35,9 @@ void run(const GenerateOptions& options) {
                                                   {"frames", made.frames}}
                                .dump(2));
     else
-        fmt::print("{}: {} of {}, each ({}, {}, {})\n", file, counted(made.motions, "motion"),
-                   made.classes == 1 ? "1 class" : fmt::format("{} classes", made.classes),
-                   made.persons * made.numbers, made.nodes, made.frames);
+        say("{}: {} of {}, each ({}, {}, {})\n", file, counted(made.motions, "motion"),
+            made.classes == 1 ? "1 class" : fmt::format("{} classes", made.classes),
+            made.persons * made.numbers, made.nodes, made.frames);
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ void add_generate(CLI::App& app) {
     command->add_option("--device", request.device, "Where libtorch works: cpu, cuda or cuda:N")
         ->capture_default_str();
     command->add_option("--threads", request.threads, "Processor threads (default: all)")
-        ->check(CLI::Range(1, 4096));
+        ->check(CLI::Range(1U, most_threads));
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer generate --generator run -o generated.h5\n"

@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
+#include "cli/say.hpp"
 #include "model/generators/import_generator.hpp"
 #include "model/recognisers/import_recogniser.hpp"
 
@@ -20,8 +21,8 @@ void print(bool json, const std::string& file, const std::string& what, std::uin
                        {"file", file}, {"kind", what}, {"parameters", numbers}, {"classes", classes}}
                        .dump(2));
     else
-        fmt::print("{}: {}, {} in {}\n", file, what, counted(numbers, "number"),
-                   classes == 1 ? "1 class" : fmt::format("{} classes", classes));
+        say("{}: {}, {} in {}\n", file, what, counted(numbers, "number"),
+            classes == 1 ? "1 class" : fmt::format("{} classes", classes));
 }
 
 /// Options that both have.

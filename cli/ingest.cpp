@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "cli/say.hpp"
 #include "ingest/formats/formats.hpp"
 #include "ingest/pipeline/pipeline.hpp"
 
@@ -30,22 +31,20 @@ std::string left_out_text(const std::string& kind) {
 
 void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
     if (s.was_complete) {
-        fmt::print("{} is complete already: nothing to do\n", options.out);
+        say("{} is complete already: nothing to do\n", options.out);
     } else {
-        if (s.resumed_files) fmt::print("went on behind {}\n", counted(s.resumed_files, "finished file"));
-        fmt::print("read {} ({}) in {}\n", counted(s.files, "file"), bytes(s.text_bytes),
-                   duration(s.seconds.wall));
+        if (s.resumed_files) say("went on behind {}\n", counted(s.resumed_files, "finished file"));
+        say("read {} ({}) in {}\n", counted(s.files, "file"), bytes(s.text_bytes), duration(s.seconds.wall));
     }
     for (const auto& d : s.datasets)
-        fmt::print("  {}: {} of {} in {}, {}, {}\n", d.folder, counted(d.clips, "clip"),
-                   counted(d.classes, "class"), counted(d.shards, "shard"), counted(d.frames, "frame"),
-                   bytes(d.bytes));
-    for (const auto& remark : s.remarks) fmt::print("  {}\n", remark);
-    for (const auto& doubt : s.doubts) fmt::print("  {}\n", to_line(doubt));
+        say("  {}: {} of {} in {}, {}, {}\n", d.folder, counted(d.clips, "clip"), counted(d.classes, "class"),
+            counted(d.shards, "shard"), counted(d.frames, "frame"), bytes(d.bytes));
+    for (const auto& remark : s.remarks) say("  {}\n", remark);
+    for (const auto& doubt : s.doubts) say("  {}\n", to_line(doubt));
     for (const auto& [kind, count] : s.left_out)
-        fmt::print("  left out: {} {}\n", counted(count, "clip"), left_out_text(kind));
-    for (const auto& line : s.first_rejections) fmt::print("    {}\n", line);
-    if (!s.left_out.empty()) fmt::print("  all of them, with reasons: {}/rejected.csv\n", options.out);
+        say("  left out: {} {}\n", counted(count, "clip"), left_out_text(kind));
+    for (const auto& line : s.first_rejections) say("    {}\n", line);
+    if (!s.left_out.empty()) say("  all of them, with reasons: {}/rejected.csv\n", options.out);
 }
 
 void print_json(const ingest::IngestSummary& s, const IngestOptions& options) {
@@ -73,7 +72,8 @@ void add_common(CLI::App* command, IngestOptions& options) {
         ->type_name("RAW");
     command->add_option("-o,--out", options.out, "Folder to make")->required()->type_name("DIR");
     command->add_option("--device", options.device, "OpenCL device: a number, gpu, cpu, or part of a name");
-    command->add_option("--threads", options.threads, "Threads that read and parse (default: all cores)");
+    command->add_option("--threads", options.threads, "Threads that read and parse (default: all cores)")
+        ->check(CLI::Range(0U, most_threads));
     command
         ->add_option("--origin", options.origin,
                      "What dataset and reports say of the motion: recorded, synthetic or stand-in, which "

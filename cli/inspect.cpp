@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
+#include "cli/say.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/height.hpp"
 
@@ -47,25 +48,23 @@ void print_text(const ingest::Dataset& dataset, bool list_classes) {
     const auto counts = clips_a_class(dataset);
     std::uint64_t size = 0;
     for (const auto& shard : dataset.shards()) size += shard.bytes;
-    fmt::print("{} ({})\n", dataset.folder().string(), header.name);
-    fmt::print("  {} of {}, {} with none; {} joints in {}, {}, {:g} frames a second\n",
-               counted(dataset.clips().size(), "clip"), counted(counts.size(), "class"),
-               std::count(counts.begin(), counts.end(), 0U), header.topology.joints(),
-               header.representation.name(), counted(header.persons, "person"), header.fps);
-    fmt::print("  {} ({} to {} a clip, median {}) in {}, {}\n", counted(lengths.total, "frame"),
-               lengths.shortest, lengths.longest, lengths.median, counted(dataset.shards().size(), "shard"),
-               bytes(size));
-    if (const auto origin = header.origin.text(); !origin.empty()) fmt::print("  {}\n", origin);
+    say("{} ({})\n", dataset.folder().string(), header.name);
+    say("  {} of {}, {} with none; {} joints in {}, {}, {:g} frames a second\n",
+        counted(dataset.clips().size(), "clip"), counted(counts.size(), "class"),
+        std::count(counts.begin(), counts.end(), 0U), header.topology.joints(), header.representation.name(),
+        counted(header.persons, "person"), header.fps);
+    say("  {} ({} to {} a clip, median {}) in {}, {}\n", counted(lengths.total, "frame"), lengths.shortest,
+        lengths.longest, lengths.median, counted(dataset.shards().size(), "shard"), bytes(size));
+    if (const auto origin = header.origin.text(); !origin.empty()) say("  {}\n", origin);
     if (const auto height = ingest::body_height(dataset))
-        fmt::print(
-            "  bodies about {:.2f} m tall{}\n", height->metres,
+        say("  bodies about {:.2f} m tall{}\n", height->metres,
             height->axis == 'y' ? "" : fmt::format(", along {}: they lie, or y is not up", height->axis));
-    for (const auto& remark : dataset.remarks()) fmt::print("  {}\n", remark);
+    for (const auto& remark : dataset.remarks()) say("  {}\n", remark);
     for (const auto& split : header.splits)
-        fmt::print("  split {:<14} {}\n", split.name, counted(dataset.split(split.name).size(), "clip"));
+        say("  split {:<14} {}\n", split.name, counted(dataset.split(split.name).size(), "clip"));
     if (list_classes)
         for (std::size_t c = 0; c < counts.size(); ++c)
-            fmt::print("  class {:>3}  {:<40} {}\n", c, header.classes[c], counted(counts[c], "clip"));
+            say("  class {:>3}  {:<40} {}\n", c, header.classes[c], counted(counts[c], "clip"));
 }
 
 Json to_json(const ingest::Dataset& dataset) {
@@ -105,7 +104,7 @@ std::string verify(const std::vector<std::filesystem::path>& folders) {
     for (const auto& folder : folders) {
         const auto [faults, checksums_of_bytes] = ingest::verify_dataset(folder);
         of_bytes |= checksums_of_bytes;
-        for (std::size_t i = 1; i < faults.size(); ++i) fmt::print(stderr, "{}\n", faults[i]);
+        for (std::size_t i = 1; i < faults.size(); ++i) say(stderr, "{}\n", faults[i]);
         if (!faults.empty())
             throw Error("{}{}; ingest the raw data again", faults[0],
                         faults.size() > 1 ? fmt::format(" ({} more above)", faults.size() - 1) : "");
@@ -143,7 +142,7 @@ void add_inspect(CLI::App& app) {
         }
         if (options->json) fmt::print("{}\n", (json.size() == 1 ? json[0] : json).dump(2));
         if (options->verify && !options->json)
-            fmt::print("verified: every checksum, offset and number is right; {}\n", verified);
+            say("verified: every checksum, offset and number is right; {}\n", verified);
     });
 }
 

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
+#include "cli/say.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "model/generators/method.hpp"
 #include "model/recognisers/recogniser_settings.hpp"
@@ -81,12 +82,12 @@ std::string shape_text(const std::vector<std::int64_t>& shape) {
 
 void print_text(const std::vector<model::NetworkSummary>& networks) {
     for (const auto& network : networks) {
-        fmt::print("{:<24} {:<40} {:<16} {:>12}\n", network.name, "what", "output", "parameters");
+        say("{:<24} {:<40} {:<16} {:>12}\n", network.name, "what", "output", "parameters");
         for (const auto& line : network.lines)
-            fmt::print("{:<24} {:<40} {:<16} {:>12}\n", line.layer, line.kind, shape_text(line.shape),
-                       grouped(static_cast<std::uint64_t>(line.parameters)));
-        fmt::print("{:<24} {:<40} {:<16} {:>12}\n\n", "total", "", "",
-                   grouped(static_cast<std::uint64_t>(parameters_of(network))));
+            say("{:<24} {:<40} {:<16} {:>12}\n", line.layer, line.kind, shape_text(line.shape),
+                grouped(static_cast<std::uint64_t>(line.parameters)));
+        say("{:<24} {:<40} {:<16} {:>12}\n\n", "total", "", "",
+            grouped(static_cast<std::uint64_t>(parameters_of(network))));
     }
 }
 

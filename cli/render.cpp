@@ -7,6 +7,7 @@
 #include "base/files/aside.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "cli/say.hpp"
 #include "reports/motions/gather.hpp"
 #include "reports/pictures/render.hpp"
 
@@ -54,9 +55,8 @@ void render(const RenderOptions& options) {
     progress.clear();
     std::error_code ignored;
     const auto kilobytes = static_cast<double>(fs::file_size(options.output, ignored)) / 1000;
-    fmt::print("{}: {} motion{}{}, {:.0f} kB\n", options.output.string(), motions.size(),
-               motions.size() == 1 ? "" : "s", frames > 0 ? fmt::format(", {} frames", frames) : "",
-               kilobytes);
+    say("{}: {} motion{}{}, {:.0f} kB\n", options.output.string(), motions.size(),
+        motions.size() == 1 ? "" : "s", frames > 0 ? fmt::format(", {} frames", frames) : "", kilobytes);
 }
 
 }  // namespace

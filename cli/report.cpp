@@ -5,9 +5,9 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
-#include "base/text/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
+#include "cli/say.hpp"
 #include "reports/page/exports.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/row_tables.hpp"
@@ -45,12 +45,12 @@ void run(const ReportOptions& options) {
         const auto data = reports::details(measured, details);
         const auto html = reports::page(options.title, tables, measured.notices, data);
         write_whole(options.out, html);
-        fmt::print(stderr, "{}: {} measured in {}, {}\n", options.out.string(), counted(figures, "figure"),
-                   counted(measured.rows.size(), "row"), bytes(html.size()));
+        say(stderr, "{}: {} measured in {}, {}\n", options.out.string(), counted(figures, "figure"),
+            counted(measured.rows.size(), "row"), bytes(html.size()));
     }
     if (!options.csv.empty()) write_whole(options.csv, reports::to_csv(tables));
     if (!options.latex.empty()) write_whole(options.latex, reports::to_latex(tables));
-    for (const auto& notice : measured.notices) fmt::print(stderr, "notice: {}\n", printable(notice));
+    for (const auto& notice : measured.notices) say(stderr, "notice: {}\n", notice);
     if (options.json) fmt::print("{}\n", reports::to_json(tables, measured.notices).dump(2));
 }
 

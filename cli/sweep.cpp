@@ -7,10 +7,10 @@
 
 #include "base/error.hpp"
 #include "base/process/process.hpp"
-#include "base/text/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "cli/say.hpp"
 #include "cli/sweep_jobs.hpp"
 #include "reports/sweep/run.hpp"
 
@@ -27,10 +27,6 @@ struct SweepOptions {
     std::vector<std::string> sbatch;
     bool dry_run = false, status = false, slurm = false, json = false;
 };
-
-std::string plain(const std::string& text) {
-    return printable(text);
-}
 
 /// Every job, what it may cost, and with a dry run its commands.
 void print_plan(const reports::Plan& plan, const SweepOptions& options, const SweepJobs& jobs) {
@@ -58,17 +54,17 @@ void print_plan(const reports::Plan& plan, const SweepOptions& options, const Sw
         const bool queued = waits && in_slurm && in_slurm->contains(job.id);
         dropped += waits && in_slurm && !queued;
         const char* state = queued ? "queued" : waits ? "to do" : name_of(s.state);
-        fmt::print("{:<8} {:<24} {}  {}{}\n", state, job.id, plain(job.title), cost,
-                   s.state == JobState::failed ? ": " + plain(s.why) : "");
+        say("{:<8} {:<24} {}  {}{}\n", state, job.id, job.title, cost,
+            s.state == JobState::failed ? ": " + s.why : "");
         if (options.dry_run && s.state != JobState::done && s.state != JobState::failed)
-            for (const auto& line : jobs.command_lines(job)) fmt::print("      {}\n", plain(line));
+            for (const auto& line : jobs.command_lines(job)) say("      {}\n", line);
     }
-    fmt::print("{} of {} to do", open, counted(plan.jobs.size(), "job"));
-    if (sum > 0) fmt::print(", about {} of work one after another", duration(sum));
-    if (unknown > 0 && open > 0) fmt::print("; {} of unknown length", unknown);
-    fmt::print("\n");
+    say("{} of {} to do", open, counted(plan.jobs.size(), "job"));
+    if (sum > 0) say(", about {} of work one after another", duration(sum));
+    if (unknown > 0 && open > 0) say("; {} of unknown length", unknown);
+    say("\n");
     if (dropped > 0)
-        fmt::print("{} of them neither done nor in Slurm's queue; --slurm submits them again\n", dropped);
+        say("{} of them neither done nor in Slurm's queue; --slurm submits them again\n", dropped);
 }
 
 /// Rows that failed, each with its reason once. The number of them.
@@ -79,11 +75,10 @@ std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, c
         done += row["status"] == "done";
         if (row["status"] != "failed") continue;
         ++failed;
-        fmt::print("failed: {}: {}\n", plain(row["name"].get<std::string>()),
-                   plain(row["why"].get<std::string>()));
+        say("failed: {}: {}\n", row["name"].get<std::string>(), row["why"].get<std::string>());
     }
-    fmt::print("{} of {} done; {}\n", done, counted(results["rows"].size(), "row"),
-               (options.out / "results.json").string());
+    say("{} of {} done; {}\n", done, counted(results["rows"].size(), "row"),
+        (options.out / "results.json").string());
     return failed;
 }
 
@@ -104,17 +99,14 @@ void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Swee
               const SweepJobs& jobs) {
     std::size_t done = 0;
     reports::SweepEvents events;
-    events.begins = [&](const reports::Job& job) {
-        fmt::print(stderr, "begins: {} ({})\n", plain(job.title), job.id);
-    };
+    events.begins = [&](const reports::Job& job) { say(stderr, "begins: {} ({})\n", job.title, job.id); };
     events.ends = [&](const reports::Job& job, const reports::JobStatus& status) {
         ++done;
         if (status.state == JobState::done)
-            fmt::print(stderr, "done:   {}{}\n", plain(job.title),
-                       status.seconds ? ", " + duration(*status.seconds) : "");
+            say(stderr, "done:   {}{}\n", job.title, status.seconds ? ", " + duration(*status.seconds) : "");
         else
-            fmt::print(stderr, "failed: {}: {}; see {}\n", plain(job.title), plain(status.why),
-                       (reports::folder_of(options.out, job) / "log.txt").string());
+            say(stderr, "failed: {}: {}; see {}\n", job.title, status.why,
+                (reports::folder_of(options.out, job) / "log.txt").string());
     };
     const auto status = reports::run_plan(sweep, plan, {options.out, jobs, options.jobs}, events);
     if (options.json)
@@ -144,8 +136,8 @@ void run(SweepOptions options) {
         const auto count = reports::submit_plan(
             sweep, plan, {options.out, jobs}, [&](const reports::Job& job) { return again(options, job); },
             options.sbatch);
-        fmt::print("{} submitted; follow them with actformer sweep {} -o {} --status\n",
-                   counted(count, "job"), options.file.string(), options.out.string());
+        say("{} submitted; follow them with actformer sweep {} -o {} --status\n", counted(count, "job"),
+            options.file.string(), options.out.string());
         return;
     }
     if (options.dry_run || options.status) {

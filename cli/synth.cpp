@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
+#include "cli/say.hpp"
 #include "ingest/dataset/origin.hpp"
 #include "ingest/synth/ntu/ntu.hpp"
 #include "ingest/synth/stand_in.hpp"
@@ -63,9 +64,9 @@ void print_summary(const Summary& s, const Options& options, bool json, double s
         fmt::print("{}\n", out.dump(2));
         return;
     }
-    fmt::print("{}: {}", options.folder.string(), counted(s.clips, "clip"));
-    if (s.written < s.clips) fmt::print(", {} of them there already", grouped(s.clips - s.written));
-    fmt::print("; wrote {}, {} in {}\n", counted(s.frames, "frame"), bytes(s.bytes), duration(seconds));
+    say("{}: {}", options.folder.string(), counted(s.clips, "clip"));
+    if (s.written < s.clips) say(", {} of them there already", grouped(s.clips - s.written));
+    say("; wrote {}, {} in {}\n", counted(s.frames, "frame"), bytes(s.bytes), duration(seconds));
 }
 
 /// Runs `make`, which is handed a callback for how many clips are done.
@@ -96,8 +97,10 @@ void add_ntu(CLI::App* synth) {
         ->capture_default_str();
     command->add_option("--seed", a->options.seed, "Another seed, other performances")->capture_default_str();
     command->add_option("--actions", a->actions, "Only these, as in 1,2,50-60 (default: all 120)");
-    command->add_option("--threads", a->options.threads,
-                        "How many clips are made at once (default: one a processor)");
+    command
+        ->add_option("--threads", a->options.threads,
+                     "How many clips are made at once (default: one a processor)")
+        ->check(CLI::Range(0U, most_threads));
     command->add_flag("--json", a->json, "Print JSON");
     examples(command,
              "  actformer synth ntu -o raw\n"
@@ -119,8 +122,10 @@ void add_stand_in(CLI::App* synth, const StandIn& stand_in) {
         ->capture_default_str()
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000}));
     command->add_option("--seed", a->options.seed, "Another seed, other performances")->capture_default_str();
-    command->add_option("--threads", a->options.threads,
-                        "How many clips are made at once (default: one a processor)");
+    command
+        ->add_option("--threads", a->options.threads,
+                     "How many clips are made at once (default: one a processor)")
+        ->check(CLI::Range(0U, most_threads));
     command->add_flag("--json", a->json, "Print JSON");
     examples(command, std::string(stand_in.examples));
     command->callback([a, &stand_in] {

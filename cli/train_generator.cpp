@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/say.hpp"
 #include "cli/training_options.hpp"
 #include "model/generators/method.hpp"
 
@@ -37,12 +38,12 @@ void print_json(const model::TrainingResult& result) {
 }
 
 void print_text(const model::TrainingResult& result) {
-    fmt::print("{}: after epoch {}, step {}\n", result.weights.string(), result.epochs, result.steps);
+    say("{}: after epoch {}, step {}\n", result.weights.string(), result.epochs, result.steps);
     if (!result.average_weights.empty())
-        fmt::print("{}: the weights' moving average (EMA)\n", result.average_weights.string());
+        say("{}: the weights' moving average (EMA)\n", result.average_weights.string());
     if (result.best)
-        fmt::print("{}: after epoch {}: {}\n", result.best_weights.string(), result.best->epoch,
-                   text_of(result.best->values));
+        say("{}: after epoch {}: {}\n", result.best_weights.string(), result.best->epoch,
+            text_of(result.best->values));
 }
 
 void run(const TrainGeneratorOptions& options) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/say.hpp"
 #include "cli/training_options.hpp"
 
 namespace actformer::cli {
@@ -30,15 +31,14 @@ nlohmann::ordered_json to_json(const model::RecogniserResult& result) {
 void print_text(const model::RecogniserResult& result, const std::string& split) {
     const auto& training = result.training;
     if (result.confusion.samples() > 0)
-        fmt::print(
-            "{}accuracy on {}: {:.2f} %, the mean over classes of the windows recognised ({:.2f} % of all "
+        say("{}accuracy on {}: {:.2f} %, the mean over classes of the windows recognised ({:.2f} % of all "
             "{})\n",
             result.confusion.table(result.classes), split, 100 * result.confusion.mean_class_accuracy(),
             100 * result.confusion.sample_accuracy(), result.confusion.samples());
-    fmt::print("{}: after epoch {}\n", training.weights.string(), training.epochs);
+    say("{}: after epoch {}\n", training.weights.string(), training.epochs);
     if (training.best)
-        fmt::print("{}: after epoch {}, {:.2f} %\n", training.best_weights.string(), training.best->epoch,
-                   100 * training.best->values.at("class_accuracy").get<double>());
+        say("{}: after epoch {}, {:.2f} %\n", training.best_weights.string(), training.best->epoch,
+            100 * training.best->values.at("class_accuracy").get<double>());
 }
 
 void run(const TrainingOptions& options) {

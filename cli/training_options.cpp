@@ -1,6 +1,7 @@
 #include "cli/training_options.hpp"
 
 #include <fmt/format.h>
+#include "cli/say.hpp"
 
 namespace actformer::cli {
 
@@ -49,8 +50,8 @@ void TrainingDisplay::print_epoch(const model::EpochReport& report) {
     if (report.scores)
         line +=
             fmt::format("  {}{}", text_of(report.scores->values), report.scores->best ? " best" : "     ");
-    fmt::print(stderr, "{}  {:.2f} steps/s, {:.0f} windows/s\n", line, report.steps_a_second,
-               report.windows_a_second);
+    say(stderr, "{}  {:.2f} steps/s, {:.0f} windows/s\n", line, report.steps_a_second,
+        report.windows_a_second);
 }
 
 model::TrainingEvents TrainingDisplay::events() {
@@ -58,7 +59,7 @@ model::TrainingEvents TrainingDisplay::events() {
     events.progress = [this](double fraction, std::uint64_t steps) { progress_.update(fraction, steps); };
     events.note = [this](const std::string& line) {
         progress_.clear();
-        fmt::print(stderr, "{}\n", line);
+        say(stderr, "{}\n", line);
     };
     events.epoch = [this](const model::EpochReport& report) {
         progress_.clear();
@@ -66,8 +67,7 @@ model::TrainingEvents TrainingDisplay::events() {
     };
     events.scores = [this](const model::ScoreReport& scores) {
         progress_.clear();
-        fmt::print(stderr, "epoch {:>4}: {}{}\n", scores.epoch, text_of(scores.values),
-                   scores.best ? "  best" : "");
+        say(stderr, "epoch {:>4}: {}{}\n", scores.epoch, text_of(scores.values), scores.best ? "  best" : "");
     };
     return events;
 }

@@ -11,6 +11,7 @@
 #include "base/files/scratch.hpp"
 #include "base/numpy/npz.hpp"
 #include "base/process/peer.hpp"
+#include "base/process/process.hpp"
 #include "ingest/export/npz/npz_writer.hpp"
 #include "ingest/smpl/body_file.hpp"
 #include "kernels/peak.hpp"
@@ -32,17 +33,19 @@ std::map<std::string, std::vector<float>> floats_of(const std::filesystem::path&
     return out;
 }
 
-std::string ask(const std::string& line) {
-    const auto said = output_of(line);
-    if (!said) throw Error("{}: failed; it needs python3-numpy", line);
+std::string ask(const std::vector<std::string>& command) {
+    const auto said = output_of(command, {{"OMP_NUM_THREADS", "2"}, {"OPENBLAS_NUM_THREADS", "2"}});
+    if (!said) throw Error("{}: failed; it needs python3-numpy", command_line(command));
     return *said;
 }
 
 void run(const std::string& frames_text, const std::string& python) {
     const Scratch folder("skinning");
     const auto peer = [&](const std::string& what, const std::string& more = "") {
-        return ask(fmt::format("OMP_NUM_THREADS=2 OPENBLAS_NUM_THREADS=2 '{}' '{}' {} '{}' {}", python,
-                               test::source("tests/bench/skinning.py"), what, folder.path().string(), more));
+        std::vector<std::string> command{python, test::source("tests/bench/skinning.py"), what,
+                                         folder.path().string()};
+        if (!more.empty()) command.push_back(more);
+        return ask(command);
     };
     peer("make", frames_text);
     const auto start = Clock::now();
