@@ -40,9 +40,13 @@ inline CommandResult run_actformer(const std::string& arguments) {
 /// The same program running beside the test, gone at the latest with this.
 class Child {
   public:
-    explicit Child(const std::string& arguments, const std::string& output = "/dev/null") : pid_(::fork()) {
+    /// `environment` as in "TMPDIR=/x", before the program's name.
+    explicit Child(const std::string& arguments, const std::string& output = "/dev/null",
+                   const std::string& environment = {})
+        : pid_(::fork()) {
         if (pid_ != 0) return;
-        const auto command = "trap '' XFSZ; exec " + program() + " " + arguments + " >" + output + " 2>&1";
+        const auto command =
+            "exec env " + environment + " " + program() + " " + arguments + " >" + output + " 2>&1";
         ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
         ::_exit(127);
     }

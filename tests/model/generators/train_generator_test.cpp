@@ -83,6 +83,33 @@ TEST_F(TrainGenerator, GoesOnAfterAKillToTheSameBits) {
     }
 }
 
+TEST_F(TrainGenerator, ASignalKeepsTheRunningStep) {
+    const std::string more = "epochs=60 checkpoint_minutes=1000";
+    ASSERT_EQ(train("whole", more).exit, 0);
+    for (const int signal : {SIGINT, SIGTERM}) {
+        Child child(line("stopped", more), at("output"));
+        for (int i = 0; i < 60'000 && !fs::exists(dir / "stopped/log.jsonl"); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ::kill(child.pid(), signal);
+        const int code = child.wait();
+        const auto said = read_file(dir / "output");
+        EXPECT_EQ(code, 128 + signal) << said;
+        EXPECT_NE(said.find(signal == SIGINT ? "stopped by SIGINT; " : "stopped by SIGTERM; "),
+                  std::string::npos)
+            << said;
+        EXPECT_NE(said.find("of 120 is kept; the same command goes on from there"), std::string::npos)
+            << said;
+        EXPECT_NE(newest(dir / "stopped"), "") << said;
+        for (const auto& entry : fs::directory_iterator(dir / "stopped"))
+            EXPECT_EQ(entry.path().string().find("partial"), std::string::npos) << entry.path();
+        const auto again = train("stopped", more);
+        ASSERT_EQ(again.exit, 0) << again.output;
+        EXPECT_NE(again.output.find("going on after"), std::string::npos) << again.output;
+        EXPECT_EQ(read_file(dir / "whole/weights-last.h5"), read_file(dir / "stopped/weights-last.h5"));
+        fs::remove_all(dir / "stopped");
+    }
+}
+
 TEST_F(TrainGenerator, RatesDropAtTheEpochsNamed) {
     // Powers of two: a quarter of four times a rate is the rate, to the bit.
     const std::string high = "generator_rate=0.0009765625 discriminator_rate=0.0009765625 epochs=2 ",
