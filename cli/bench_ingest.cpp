@@ -169,20 +169,19 @@ void print_text(const Measured& ours, std::optional<double> peer) {
 void make_arrays(const fs::path& path, std::uint64_t size) {
     constexpr std::uint64_t clip = 60 * 25 * 3;
     const auto clips = std::max<std::uint64_t>(1, size / (clip * sizeof(float)));
-    std::ofstream file(path, std::ios::binary);
+    Aside file(path);
     auto header =
         fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, 60, 1, 25, 3), }}", clips);
     header.resize(117, ' ');
-    file << std::string_view("\x93NUMPY\x01\x00\x76\x00", 10) << header << '\n';
+    file.write(std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header + '\n');
     std::vector<float> motion(clip);
     for (std::uint64_t c = 0; c < clips; ++c) {
         for (std::size_t i = 0; i < clip; ++i)
             motion[i] =
                 std::sin(0.37F * static_cast<float>(i % 75) + 0.001F * static_cast<float>(i + c % 1000));
-        file.write(reinterpret_cast<const char*>(motion.data()),
-                   static_cast<std::streamsize>(motion.size() * sizeof(float)));
+        file.write({reinterpret_cast<const char*>(motion.data()), motion.size() * sizeof(float)});
     }
-    if (!file.flush()) throw Error("{}: cannot be written; is the disk full?", path.string());
+    file.commit();
 }
 
 void run_motions(const BenchIngestOptions& options) {

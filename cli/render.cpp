@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/files/aside.hpp"
+#include "base/files/output.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
@@ -28,7 +28,7 @@ struct RenderOptions {
 
 void render(const RenderOptions& options) {
     const auto kind = reports::picture_kind(options.output);
-    { const Aside probe(options.output); }  // what cannot be written is said before the work, not after
+    check_output(options.output);
     reports::Layout layout;
     layout.view = reports::parse_view(options.view);
     layout.columns = options.columns;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
+#include "base/files/aside.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
@@ -78,6 +79,7 @@ void run(const Options& options, bool json, Make make) {
         const auto total = static_cast<double>(options.clips);
         return make([&](std::uint64_t done) { progress.update(static_cast<double>(done) / total, done); });
     }();
+    sync_all(options.folder);
     ingest::write_origin(options.folder, ingest::DataOrigin::Kind::stand_in);
     print_summary(summary, options, json,
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());

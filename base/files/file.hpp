@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/files/aside.hpp"
+
 namespace actformer {
 
 /// Zero bytes behind every text in memory: readers may load this far past its end.
@@ -23,8 +25,14 @@ void read_in_pieces(const std::filesystem::path& path, const std::function<void(
 /// Direct writes, past the page cache, begin at a multiple of this and are a multiple of it long.
 constexpr std::size_t direct_block = 4096;
 
-/// Writes `bytes` beside `path` and renames, so that `path` is whole or absent. Throws Error (no space, no right to write)
-/// and leaves nothing behind.
-void write_whole(const std::filesystem::path& path, std::string_view bytes);
+/// An Aside with these bytes. Throws Error (no space, no right to write) and leaves nothing behind.
+void write_whole(const std::filesystem::path& path, std::string_view bytes, Sync sync = Sync::now);
+
+/// Puts `bytes` behind what is in the file, which is made where there is none. Throws Error, and takes back what was written of them,
+/// where not all of them could be.
+void append(const std::filesystem::path& path, std::string_view bytes);
+
+/// Makes the folder and those it lies in; where `folder` is a symbolic link, what that leads to. Throws Error.
+void make_folders(const std::filesystem::path& folder);
 
 }  // namespace actformer

@@ -10,6 +10,11 @@ Handle::~Handle() {
     if (id_ >= 0 && close_) close_(id_);
 }
 
+bool Handle::close() {
+    const auto id = std::exchange(id_, -1);
+    return id < 0 || !close_ || close_(id) >= 0;
+}
+
 Handle::Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
 
 Handle& Handle::operator=(Handle&& other) noexcept {

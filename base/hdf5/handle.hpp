@@ -19,6 +19,9 @@ class Handle {
     hid_t get() const { return id_; }
     explicit operator bool() const { return id_ >= 0; }
 
+    /// False where closing failed, which may be the moment when values are written.
+    bool close();
+
   private:
     hid_t id_ = -1;
     herr_t (*close_)(hid_t) = nullptr;

@@ -7,6 +7,7 @@
 #include "base/checksum/checksum.hpp"
 #include "base/checksum/fletcher32.hpp"
 #include "base/error.hpp"
+#include "base/hdf5/file_on_disk.hpp"
 
 namespace actformer::hdf5 {
 namespace {
@@ -50,16 +51,29 @@ void Writer::create_in(FileMemory& memory, std::size_t expected_bytes) {
                     "making a file in memory");
 }
 
-Writer::Writer(const std::filesystem::path& path) {
+Writer::Writer(const std::filesystem::path& path, Sync sync) : aside_(std::make_unique<Aside>(path, sync)) {
     silence();
-    file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-    if (!file_) throw Error("{}: cannot be written; is the folder there, and yours to write?", path.string());
+    const auto access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "making a file");
+    serve(*aside_, access.get());
+    file_ = Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
+    need(static_cast<bool>(file_), "superblock");
 }
 
-bool Writer::finish() {
-    const bool written = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0;
-    file_ = {};
-    return written;
+Writer::~Writer() = default;
+Writer::Writer(Writer&& other) noexcept = default;
+
+void Writer::finish() {
+    const bool flushed = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0;
+    need(file_.close() && flushed, "superblock");
+    aside_->commit();
+}
+
+/// The disk's failure, where there was one, also where the library hid it; else what could not be `written`.
+void Writer::need(bool written, const std::string& name) const {
+    if (aside_) aside_->check();
+    if (!written)
+        throw Error("{}: writing '{}' failed; is there enough memory?",
+                    aside_ ? aside_->path().string() : "HDF5", name);
 }
 
 Handle Writer::create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk) {
@@ -75,17 +89,19 @@ Handle Writer::create(const std::string& name, hid_t type, const Shape& shape, h
     }
     const auto links = checked(H5Pcreate(H5P_LINK_CREATE), H5Pclose, "describing an array");
     H5Pset_create_intermediate_group(links.get(), 1);
-    return checked(
+    Handle made(
         H5Dcreate2(file_.get(), name.c_str(), type, space.get(), links.get(), layout.get(), H5P_DEFAULT),
-        H5Dclose, "adding an array");
+        H5Dclose);
+    need(static_cast<bool>(made), name);
+    return made;
 }
 
 void Writer::write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
                         hsize_t rows_a_chunk) {
-    const auto set = create(name, type, shape, rows_a_chunk);
-    if (std::find(shape.begin(), shape.end(), 0U) == shape.end() &&
-        H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-        throw Error("HDF5: writing '{}' failed; is there space left?", name);
+    auto set = create(name, type, shape, rows_a_chunk);
+    if (std::find(shape.begin(), shape.end(), 0U) == shape.end())
+        need(H5Dwrite(set.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0, name);
+    need(set.close(), name);
     const auto bytes = std::accumulate(shape.begin(), shape.end(), H5Tget_size(type), std::multiplies<>());
     note_array(name, type, shape, checksum({static_cast<const char*>(values), bytes}));
 }
@@ -100,7 +116,7 @@ void Writer::note_array(const std::string& name, hid_t type, const Shape& shape,
 // Whole chunks go past the library's filters and chunk cache, which copy every byte more often than all else that is done to it.
 void Writer::write_pieces(const std::string& name, const Shape& shape,
                           const std::vector<std::span<const float>>& pieces, hsize_t rows_a_chunk) {
-    const auto set = create(name, H5T_NATIVE_FLOAT, shape, rows_a_chunk);
+    auto set = create(name, H5T_NATIVE_FLOAT, shape, rows_a_chunk);
     const auto row = std::accumulate(shape.begin() + 1, shape.end(), std::size_t{1}, std::multiplies<>());
     const std::size_t numbers = std::min(rows_a_chunk, shape[0]) * row;
     std::vector<float> chunk(numbers + 1);  // the checksum goes behind
@@ -111,9 +127,9 @@ void Writer::write_pieces(const std::string& name, const Shape& shape,
         sum.add({reinterpret_cast<const char*>(chunk.data()), filled * sizeof(float)});
         std::fill(chunk.begin() + static_cast<std::ptrdiff_t>(filled), chunk.end(), 0.0F);
         chunk.back() = std::bit_cast<float>(fletcher32(std::span(chunk).first(numbers)));
-        if (H5Dwrite_chunk(set.get(), H5P_DEFAULT, 0, at.data(), chunk.size() * sizeof(float), chunk.data()) <
-            0)
-            throw Error("HDF5: writing '{}' failed; is there enough memory?", name);
+        need(H5Dwrite_chunk(set.get(), H5P_DEFAULT, 0, at.data(), chunk.size() * sizeof(float),
+                            chunk.data()) >= 0,
+             name);
         at[0] += rows_a_chunk;
         filled = 0;
     };
@@ -126,15 +142,15 @@ void Writer::write_pieces(const std::string& name, const Shape& shape,
             if (filled == numbers) write_chunk();
         }
     if (filled > 0) write_chunk();
+    need(set.close(), name);
     note_array(name, H5T_NATIVE_FLOAT, shape, sum.hex());
 }
 
 void Writer::write_rows(const std::string& name, const Shape& shape, std::uint64_t first,
                         std::span<const float> values) {
-    const auto set =
-        H5Lexists(file_.get(), name.c_str(), H5P_DEFAULT) > 0
-            ? checked(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT), H5Dclose, "adding to an array")
-            : create(name, H5T_NATIVE_FLOAT, shape, 0);
+    auto set = H5Lexists(file_.get(), name.c_str(), H5P_DEFAULT) > 0
+                   ? checked(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT), H5Dclose, "adding to an array")
+                   : create(name, H5T_NATIVE_FLOAT, shape, 0);
     Shape start(shape.size(), 0), part = shape;
     start[0] = first;
     part[0] =
@@ -142,8 +158,9 @@ void Writer::write_rows(const std::string& name, const Shape& shape, std::uint64
     const Handle space(H5Dget_space(set.get()), H5Sclose);
     const Handle memory(H5Screate_simple(static_cast<int>(part.size()), part.data(), nullptr), H5Sclose);
     H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, part.data(), nullptr);
-    if (H5Dwrite(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, values.data()) < 0)
-        throw Error("HDF5: writing '{}' failed; is there space left?", name);
+    need(H5Dwrite(set.get(), H5T_NATIVE_FLOAT, memory.get(), space.get(), H5P_DEFAULT, values.data()) >= 0,
+         name);
+    need(set.close(), name);
 }
 
 void Writer::write_strings(const std::string& name, const std::vector<std::string>& values) {
@@ -157,10 +174,12 @@ void Writer::attribute_from(const std::string& name, const std::string& of, hid_
                            ? H5Screate(H5S_SCALAR)
                            : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
                        H5Sclose);
-    const auto attribute = checked(H5Acreate_by_name(file_.get(), of.c_str(), name.c_str(), type, space.get(),
-                                                     H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                                   H5Aclose, "adding an attribute");
-    H5Awrite(attribute.get(), type, value);
+    Handle attribute(H5Acreate_by_name(file_.get(), of.c_str(), name.c_str(), type, space.get(), H5P_DEFAULT,
+                                       H5P_DEFAULT, H5P_DEFAULT),
+                     H5Aclose);
+    need(static_cast<bool>(attribute), name);
+    need(H5Awrite(attribute.get(), type, value) >= 0, name);
+    need(attribute.close(), name);
     const auto bytes = std::accumulate(shape.begin(), shape.end(), H5Tget_size(type), std::multiplies<>());
     contents_.add_attribute(of == "/" ? std::string() : of, name, type, shape,
                             {static_cast<const char*>(value), bytes});

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/files/aside.hpp"
 #include "base/hdf5/contents.hpp"
 #include "base/hdf5/file_memory.hpp"
 #include "base/hdf5/handle.hpp"
@@ -22,7 +23,10 @@ class Writer {
     explicit Writer(std::size_t expected_bytes);
     Writer(FileMemory& memory, std::size_t expected_bytes);
 
-    explicit Writer(const std::filesystem::path& path);  ///< on disk, for finish()
+    /// On disk, an Aside until finish(). Throws Error where nothing can be written at `path`.
+    explicit Writer(const std::filesystem::path& path, Sync sync = Sync::now);
+    ~Writer();
+    Writer(Writer&& other) noexcept;
 
     /// `rows_a_chunk` rows of the first axis share a checksummed chunk; 0 stores the array in one piece.
     template <typename T>
@@ -56,8 +60,8 @@ class Writer {
     /// The bytes of a file in memory, which begin at a page; until it is written to again or goes.
     std::string_view image();
 
-    /// Closes a file on disk. False where not all of it could be written.
-    bool finish();
+    /// Closes a file on disk, which appears at its path. Throws Error where not all of it could be written.
+    void finish();
 
   private:
     void create_in(FileMemory& memory, std::size_t expected_bytes);
@@ -67,9 +71,11 @@ class Writer {
     Handle create(const std::string& name, hid_t type, const Shape& shape, hsize_t rows_a_chunk);
     void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
                     hsize_t rows_a_chunk);
+    void need(bool written, const std::string& name) const;
+    std::unique_ptr<Aside> aside_;        ///< of a file on disk
     std::unique_ptr<FileMemory> memory_;  ///< its own, of a file that is not on disk
     Contents contents_;
-    Handle file_;  ///< behind the memory, which it needs to the end
+    Handle file_;  ///< behind what it lies in, which it needs to the end
 };
 
 }  // namespace actformer::hdf5

@@ -37,11 +37,7 @@ std::vector<std::uint32_t> read_labels(const hdf5::Reader& file, const std::stri
 
 FeaturesFile::FeaturesFile(const std::filesystem::path& path, std::uint64_t sequences, std::uint64_t features,
                            std::uint64_t classes)
-    : aside_(path),
-      sequences_(sequences),
-      features_(features),
-      classes_(classes),
-      writer_(aside_.partial()) {}
+    : sequences_(sequences), features_(features), classes_(classes), writer_(path) {}
 
 void FeaturesFile::add(std::uint64_t first, std::span<const float> features, std::span<const float> logits) {
     writer_.write_rows("features", {sequences_, features_}, first, features);
@@ -65,7 +61,7 @@ void FeaturesFile::frames(std::uint32_t shortest, std::uint32_t longest) {
 }
 
 void FeaturesFile::finish() {
-    aside_.commit(writer_.finish());
+    writer_.finish();
 }
 
 StoredFeatures read_features(const std::filesystem::path& path) {

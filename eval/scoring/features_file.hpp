@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "base/files/aside.hpp"
 #include "base/hdf5/writer.hpp"
 #include "eval/metrics/samples.hpp"
 
@@ -31,7 +30,6 @@ class FeaturesFile {
     void finish();
 
   private:
-    Aside aside_;
     std::uint64_t sequences_, features_, classes_;
     hdf5::Writer writer_;
 };

@@ -4,7 +4,7 @@
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
-#include "base/files/aside.hpp"
+#include "base/files/file.hpp"
 #include "eval/scoring/measured_motions.hpp"
 #include "eval/scoring/real_features.hpp"
 #include "ingest/dataset/dataset_json.hpp"
@@ -30,11 +30,9 @@ void widen(Samples& samples, std::size_t classes) {
 }
 
 void copy_whole(const fs::path& from, const fs::path& to) {
-    Aside aside(to);
-    std::error_code error;
-    fs::copy_file(from, aside.partial(), fs::copy_options::overwrite_existing, error);
-    if (error) throw Error("{}: cannot be written: {}", to.string(), error.message());
-    aside.commit();
+    Aside file(to);
+    read_in_pieces(from, [&](std::string_view piece) { file.write(piece); });
+    file.commit();
 }
 
 void warn_of_lengths(ScoreReport& report, std::uint32_t window, const StoredFeatures& generated) {
@@ -74,7 +72,7 @@ class Sides {
     Observed real() {
         auto cached = real_features(first(), "real.h5");
         if (!request_.keep.empty()) {
-            fs::create_directories(request_.keep);
+            make_folders(request_.keep);
             copy_whole(cached.file, request_.keep / "real.h5");
         }
         auto out = observed(std::move(cached.features), request_.real.dataset.string());

@@ -101,8 +101,7 @@ Tiles load_tiles(const kernels::DeviceInfo& device) {
 void save_tiles(const kernels::DeviceInfo& device, const Tiles& tiles) {
     auto json = read_file();
     json[key_of(device)] = to_json(tiles);
-    std::error_code error;
-    std::filesystem::create_directories(tiles_file().parent_path(), error);
+    make_folders(tiles_file().parent_path());
     write_whole(tiles_file(), json.dump(2) + "\n");
 }
 

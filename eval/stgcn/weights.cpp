@@ -5,7 +5,6 @@
 #include <random>
 
 #include "base/error.hpp"
-#include "base/files/aside.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
 #include "eval/weights_reader.hpp"
@@ -74,8 +73,7 @@ Weights read_weights(const std::filesystem::path& file_path) {
 }
 
 void write_weights(const std::filesystem::path& path, const Weights& weights) {
-    Aside aside(path);
-    hdf5::Writer file(aside.partial());
+    hdf5::Writer file(path);
     for (const auto& [name, shape, role, fan_in] : stgcn_tensors(weights))
         file.write<float>(name, hdf5::Shape(shape.begin(), shape.end()), weights.at(name));
     file.attribute("kind", std::string("stgcn"));
@@ -86,7 +84,7 @@ void write_weights(const std::filesystem::path& path, const Weights& weights) {
     file.attribute("parents",
                    std::vector<std::int64_t>(weights.graph.parents.begin(), weights.graph.parents.end()));
     file.attribute("center", std::int64_t{weights.graph.center});
-    aside.commit(file.finish());
+    file.finish();
 }
 
 Weights random_weights(std::uint32_t channels, std::uint32_t classes, const Graph& graph, double width,

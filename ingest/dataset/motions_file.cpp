@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "base/files/aside.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
 #include "ingest/dataset/layout.hpp"
@@ -83,12 +82,11 @@ MotionDetails MotionsFile::details(const std::string& name) const {
 }
 
 struct MotionsWriter::Handle {
-    explicit Handle(const std::filesystem::path& path) : aside(path), writer(aside.partial()) {}
-    Aside aside;
     hdf5::Writer writer;
 };
 
-MotionsWriter::MotionsWriter(const std::filesystem::path& path) : file_(new Handle(path)) {}
+MotionsWriter::MotionsWriter(const std::filesystem::path& path, Sync sync)
+    : file_(new Handle{hdf5::Writer(path, sync)}) {}
 MotionsWriter::~MotionsWriter() = default;
 
 void MotionsWriter::add(const std::string& name, const Motion& motion, const MotionDetails& details) {
@@ -109,7 +107,7 @@ void MotionsWriter::note(const std::string& attribute, const std::string& text) 
 }
 
 void MotionsWriter::finish() {
-    file_->aside.commit(file_->writer.finish());
+    file_->writer.finish();
 }
 
 }  // namespace actformer::ingest

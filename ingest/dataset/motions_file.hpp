@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files/aside.hpp"
 #include "ingest/dataset/motion.hpp"
 #include "ingest/dataset/subjects.hpp"
 
@@ -62,7 +63,7 @@ class MotionsFile {
 /// Writes motions one at a time; the file appears at `path` at finish(), and not at all without it.
 class MotionsWriter {
   public:
-    explicit MotionsWriter(const std::filesystem::path& path);
+    explicit MotionsWriter(const std::filesystem::path& path, Sync sync = Sync::now);
     ~MotionsWriter();
     void add(const std::string& name, const Motion& motion, const MotionDetails& details = {});
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/files/file.hpp"
 #include "base/text/printable.hpp"
 #include "ingest/export/export_format.hpp"
 #include "ingest/export/fit_name.hpp"
@@ -108,9 +109,8 @@ class Export {
         for (const auto i : picks) clips.push_back(source_.clips()[i].name);
         const auto names = fit_names(clips, NameFor::file);
         note(names_changed(clips, names, "file name"));
-        std::error_code failed;
-        fs::create_directories(request_.out, failed);
-        if (failed) throw Error("{}: cannot be made: {}", request_.out.string(), failed.message());
+        make_folders(request_.out);
+        context_.sync = Sync::later;  // all at once, below
         for (std::size_t i = 0; i < picks.size(); ++i) {
             const auto file = target_.format->open(
                 request_.out / fmt::format("{}.{}", names[i], target_.format->name), context_);
@@ -118,6 +118,7 @@ class Export {
             finish(*file);
             if (progress) progress(i + 1, picks.size());
         }
+        sync_all(request_.out);
     }
 
     void add(ExportFile& file, std::size_t clip) {

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/files/aside.hpp"
 #include "ingest/export/clip_source.hpp"
 #include "ingest/export/skeleton_motion.hpp"
 #include "ingest/smpl/body_file.hpp"
@@ -25,6 +26,7 @@ struct ExportContext {
     std::vector<Point> pose;            ///< the rest pose of skeletons, as skeletons_of takes it
     std::string source;                 ///< fingerprint of what the clips come from
     std::optional<SmplBody> body = {};  ///< of a skin; only of formats that take one
+    Sync sync = Sync::now;
 };
 
 /// A file in the making, or for some formats a file a person. Nothing is left of it without finish().

@@ -42,7 +42,7 @@ std::vector<std::string> drop_empty_classes(DatasetFile& file, const std::set<st
     for (auto& shard : file.shards) {
         const auto path = folder / shard.file;
         const auto checksum = hdf5::Reader(path).contents();
-        if (checksum == shard.checksum) write_whole(path, renumber(path, renumbered, scratch));
+        if (checksum == shard.checksum) write_whole(path, renumber(path, renumbered, scratch), Sync::later);
         shard.checksum = checksum == shard.checksum ? hdf5::Reader(path).contents() : checksum;
     }
     file.header.classes = std::move(kept);

@@ -1,13 +1,13 @@
 #include "ingest/pipeline/journal.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <set>
 
 #include "base/error.hpp"
+#include "base/files/file.hpp"
 #include "base/text/json.hpp"
 #include "ingest/dataset/dataset_json.hpp"
+#include "ingest/pipeline/place.hpp"
 
 namespace actformer::ingest {
 namespace fs = std::filesystem;
@@ -50,22 +50,15 @@ std::string line_of(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void append(const fs::path& path, const std::string& line) {
-    std::ofstream file(path, std::ios::app | std::ios::binary);
-    file << line << std::flush;
-    if (!file) throw Error("{}: cannot be written: {}", path.string(), std::strerror(errno));
-}
-
 }  // namespace
 
 Workplace::Workplace(fs::path folder, const std::string& request) : folder_(std::move(folder)) {
-    std::error_code error;
-    fs::create_directories(folder_, error);
-    if (error) throw Error("{}: the folder cannot be made: {}", folder_.string(), error.message());
+    make_folders(folder_);
     lock_ = FileLock::if_free(folder_ / "lock");
     if (!lock_)
         throw Error("{}: another ingest is writing there; wait for it, or choose another -o",
                     folder_.string());
+    take_back(data(), folder_);
     load(request);
 }
 
@@ -102,7 +95,7 @@ void Workplace::start_afresh(const std::string& request) {
     finished_.clear();
     fs::remove(folder_ / "journal");
     fs::remove_all(data());
-    fs::create_directories(data());
+    make_folders(data());
     append(folder_ / "journal", request + "\n");
 }
 
@@ -112,9 +105,7 @@ void Workplace::finish(Tranche tranche) {
 }
 
 void Workplace::deliver(const fs::path& out) {
-    std::error_code error;
-    fs::rename(data(), out, error);
-    if (error) throw Error("{}: cannot be put in place: {}", out.string(), error.message());
+    put_in_place(data(), folder_, out);
     discard();
 }
 

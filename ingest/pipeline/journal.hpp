@@ -40,7 +40,7 @@ struct Tranche {
         labels;  ///< dataset number, label: those that clips kept have
 };
 
-/// The working folder OUT.partial, held by one process at a time.
+/// The working folder, as workplace_of() tells it, held by one process at a time.
 class Workplace {
   public:
     /// Opens or makes `folder`. Work that an earlier run left for another `request` (settings and raw files) is thrown away.
@@ -53,7 +53,7 @@ class Workplace {
     /// The shards of `tranche` are in place: note it down.
     void finish(Tranche tranche);
 
-    /// Moves data() to `out` and removes what is left.
+    /// Moves data() to `out`, whole and on the disk, and removes what is left.
     void deliver(const std::filesystem::path& out);
 
     /// Removes everything.

@@ -17,6 +17,7 @@
 #include "ingest/pipeline/groups.hpp"
 #include "ingest/pipeline/journal.hpp"
 #include "ingest/pipeline/parsers.hpp"
+#include "ingest/pipeline/place.hpp"
 #include "ingest/pipeline/record.hpp"
 
 namespace actformer::ingest {
@@ -65,11 +66,12 @@ class Ingest {
         Source source(request_.raw, format_.extensions(), format_.largest_file());
         summary_.seconds.walk = seconds_since(start);
         const auto wanted = request_line(source);
-        const auto aside = fs::path(request_.out.string() + ".partial");
-        if (fs::exists(request_.out) && !(fs::is_directory(request_.out) && fs::is_empty(request_.out))) {
+        const auto aside = workplace_of(request_.out);
+        if (is_taken(request_.out)) {
             take_over_finished(wanted);
             std::error_code ignored;
-            fs::remove_all(aside, ignored);
+            for (const auto& left : {aside, fs::path(request_.out.string() + ".partial")})
+                fs::remove_all(left, ignored);
             return summary_;
         }
         const SafePoints safe_points;
@@ -163,8 +165,8 @@ class Ingest {
             count(tranche);
             for (std::uint64_t i = 0; i < tranche.files; ++i)
                 if (!source.next_name(skipped))
-                    throw Error("the raw files changed while they were read; remove {}.partial",
-                                request_.out.string());
+                    throw Error("{}: the raw files changed while they were read; remove {}",
+                                request_.raw[0].string(), workplace_of(request_.out).string());
             for (const auto& name : tranche.names) names_.insert(name);
         }
         summary_.resumed_files = files_done_;
@@ -333,9 +335,9 @@ class Ingest {
                      const std::string& fingerprint) {
         const auto file = folder_of(dataset) / shard_name(shard_count_[dataset]++);
         ShardEntry entry{file.string(), {}, 0, shard.clips(), shard.frames()};
-        fs::create_directories((workplace.data() / file).parent_path());
+        make_folders((workplace.data() / file).parent_path());
         const auto image = shard.image(shard_memory_, format_.settings(), fingerprint);
-        write_whole(workplace.data() / file, image.bytes);
+        write_whole(workplace.data() / file, image.bytes, Sync::later);
         entry.checksum = image.contents;
         entry.bytes = image.bytes.size();
         return entry;
@@ -363,13 +365,13 @@ class Ingest {
                     summary_.remarks.push_back(lost);
                 }
             for (const auto& doubt : doubts_of(tranches, d)) file.remarks.push_back(to_line(doubt));
-            write_whole(folder / "dataset.json", to_text(file));
+            write_whole(folder / "dataset.json", to_text(file), Sync::later);
             add_dataset(file, (request_.out / folder_of(d)).lexically_normal(), summary_);
         }
-        write_whole(workplace.data() / "rejected.csv", rejected_csv(tranches));
-        write_whole(
-            workplace.data() / "ingest.json",
-            record_text({format_.settings(), checksum(wanted), fingerprint_}, request_.out, summary_));
+        write_whole(workplace.data() / "rejected.csv", rejected_csv(tranches), Sync::later);
+        write_whole(workplace.data() / "ingest.json",
+                    record_text({format_.settings(), checksum(wanted), fingerprint_}, request_.out, summary_),
+                    Sync::later);
         workplace.deliver(request_.out);
     }
 

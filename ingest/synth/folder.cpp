@@ -12,22 +12,15 @@ namespace fs = std::filesystem;
 
 void write_file(const fs::path& file, std::string_view bytes) {
     try {
-        fs::create_directories(file.parent_path());
-        write_whole(file, bytes);
+        make_folders(file.parent_path());
+        write_whole(file, bytes, Sync::later);
     } catch (const std::exception& e) {
-        throw Error(
-            "{}; free some space or make the folder writable, and run the command again: it goes on where it "
-            "was",
-            e.what());
+        throw Error("{}; run the command again: it goes on where it was", e.what());
     }
 }
 
 void claim_folder(const fs::path& folder, std::string_view made_by, std::uint64_t seed) {
-    std::error_code failed;
-    fs::create_directories(folder, failed);
-    if (failed)
-        throw Error("{}: cannot be made a folder ({}); choose another with -o", folder.string(),
-                    failed.message());
+    make_folders(folder);
     const auto file = folder / "synth.json";
     const nlohmann::ordered_json mine = {
         {"made_by", made_by}, {"version", ACTFORMER_VERSION}, {"seed", seed}};

@@ -12,7 +12,7 @@ namespace actformer::ingest::synth {
 /// with them. `made_by` is the command, as in "actformer synth ntu". Throws Error where the folder holds such files, or cannot be made.
 void claim_folder(const std::filesystem::path& folder, std::string_view made_by, std::uint64_t seed);
 
-/// A file whole or not at all, and the folders it lies in. Throws Error naming it and the remedy.
+/// A file whole or not at all, and the folders it lies in. Whoever makes such files calls sync_all() behind the last. Throws Error naming it and the remedy.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace actformer::ingest::synth

@@ -1,7 +1,5 @@
 #include "model/train/run_folder.hpp"
 
-#include <cerrno>
-#include <cstring>
 #include <fstream>
 
 #include "base/error.hpp"
@@ -11,9 +9,7 @@
 namespace actformer::model {
 
 RunFolder::RunFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error) throw Error("{}: the folder cannot be made or written: {}", folder_.string(), error.message());
+    make_folders(folder_);
     lock_ = FileLock::if_free(folder_ / "lock");
     if (!lock_)
         throw Error("{}: another training is writing there; wait for it, or choose another -o",
@@ -33,10 +29,7 @@ void RunFolder::keep_to(const Config& config) const {
 }
 
 void RunFolder::log(const nlohmann::ordered_json& line) const {
-    const auto path = folder_ / "log.jsonl";
-    std::ofstream file(path, std::ios::app | std::ios::binary);
-    file << line.dump() << '\n' << std::flush;
-    if (!file) throw Error("{}: cannot be written: {}", path.string(), std::strerror(errno));
+    append(folder_ / "log.jsonl", line.dump() + "\n");
 }
 
 void RunFolder::rewind_log(std::uint64_t epochs) const {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "base/error.hpp"
@@ -20,13 +19,10 @@ constexpr int transparent = 255;
 /// giflib's encoder on a file; every failure is an Error.
 class Encoder {
   public:
-    Encoder(const std::filesystem::path& path, std::string shown_path, const cv::Size& size,
-            const std::vector<cv::Vec3b>& colours)
-        : shown_path_(std::move(shown_path)), file_(std::fopen(path.c_str(), "wb")) {
-        if (!file_) throw Error("cannot write {}; choose another place with -o", shown_path_);
+    Encoder(Aside& file, const cv::Size& size, const std::vector<cv::Vec3b>& colours) : file_(file) {
         int code = 0;
-        gif_ = EGifOpen(file_.get(), write, &code);
-        if (gif_ == nullptr) throw Error("cannot write {}: {}", shown_path_, GifErrorString(code));
+        gif_ = EGifOpen(&file_, write, &code);
+        if (gif_ == nullptr) throw Error("cannot write {}: {}", file_.path().string(), GifErrorString(code));
         EGifSetGifVersion(gif_, true);
 
         std::array<GifColorType, 256> map{};
@@ -65,22 +61,28 @@ class Encoder {
     void finish() {
         int code = 0;
         auto* gif = std::exchange(gif_, nullptr);
-        if (EGifCloseFile(gif, &code) == GIF_ERROR)
-            throw Error("cannot finish {}: {}", shown_path_, GifErrorString(code));
-        if (std::fclose(file_.release()) != 0) full();
+        const auto closed = EGifCloseFile(gif, &code);
+        file_.check();
+        if (closed == GIF_ERROR)
+            throw Error("cannot finish {}: {}", file_.path().string(), GifErrorString(code));
     }
 
   private:
+    /// giflib is C, and drops failures now and then: the file remembers them.
     static int write(GifFileType* gif, const GifByteType* bytes, int count) {
-        return static_cast<int>(
-            std::fwrite(bytes, 1, static_cast<std::size_t>(count), static_cast<std::FILE*>(gif->UserData)));
+        try {
+            static_cast<Aside*>(gif->UserData)
+                ->write({reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count)});
+            return count;
+        } catch (const Error&) {
+            return 0;
+        }
     }
 
-    [[noreturn]] void full() const { throw Error("cannot write all of {}; is the disk full?", shown_path_); }
-
     void need(int result) const {
-        if (std::ferror(file_.get()) != 0) full();
-        if (result == GIF_ERROR) throw Error("cannot write {}: {}", shown_path_, GifErrorString(gif_->Error));
+        file_.check();
+        if (result == GIF_ERROR)
+            throw Error("cannot write {}: {}", file_.path().string(), GifErrorString(gif_->Error));
     }
 
     void loop_for_ever() {
@@ -91,11 +93,7 @@ class Encoder {
         need(EGifPutExtensionTrailer(gif_));
     }
 
-    struct Close {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    std::string shown_path_;
-    std::unique_ptr<std::FILE, Close> file_;
+    Aside& file_;
     GifFileType* gif_ = nullptr;
 };
 
@@ -140,7 +138,7 @@ void write_gif(const std::filesystem::path& path, const Film& whole, const Watch
     const auto film = slow_enough(whole);
     Aside file(path);
     Palette palette(colours_of(film));
-    Encoder encoder(file.partial(), path.string(), film.size, palette.colours());
+    Encoder encoder(file, film.size, palette.colours());
 
     cv::Mat before, now(film.size, CV_8U), stored(film.size, CV_8U);
     for_each_frame(film, [&](std::size_t i, const cv::Mat& picture) {

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/error.hpp"
-#include "base/files/aside.hpp"
+#include "base/files/file.hpp"
 #include "reports/pictures/gif.hpp"
 #include "reports/pictures/video.hpp"
 
@@ -24,15 +23,10 @@ PictureKind picture_kind(const std::filesystem::path& path) {
 }
 
 void write_png(const std::filesystem::path& path, const cv::Mat& picture) {
-    Aside file(path);
     std::vector<std::uint8_t> bytes;
     if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9}))
         throw Error("cannot write {}: OpenCV was built without PNG; install libopencv-dev", path.string());
-    std::ofstream out(file.partial(), std::ios::binary);
-    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (!out) throw Error("cannot write all of {}; is the disk full?", path.string());
-    file.commit();
+    write_whole(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 void render(const std::vector<JointMotion>& motions, const Layout& layout, const std::filesystem::path& path,

@@ -32,12 +32,6 @@ std::string now() {
     return text;
 }
 
-void make_folder(const fs::path& out) {
-    std::error_code error;
-    fs::create_directories(out, error);
-    if (error) throw Error("{}: cannot be made: {}", out.string(), error.message());
-}
-
 /// Waits for whoever else does the job. None where a signal comes before.
 std::optional<FileLock> lock_when_free(const fs::path& path, const SafePoints& safe_points) {
     auto lock = FileLock::if_free(path);
@@ -51,7 +45,7 @@ std::optional<FileLock> lock_when_free(const fs::path& path, const SafePoints& s
 /// Runs a job, unless somebody else has done it; empty, or why it failed. A job that a signal stopped leaves no mark of that.
 std::string work_on(const Job& job, const SweepOptions& options, const SafePoints& safe_points) {
     const auto folder = folder_of(options.out, job);
-    make_folder(folder);
+    make_folders(folder);
     const auto lock = lock_when_free(folder / "lock", safe_points);
     if (!lock) return "another process does it";
     if (fs::exists(folder / "done.json")) return {};  // by whom we waited for
@@ -183,7 +177,7 @@ std::string how_to_go_on(const std::vector<JobStatus>& status) {
 std::vector<JobStatus> run_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
                                 const SweepEvents& events) {
     const SafePoints safe_points;
-    make_folder(options.out);
+    make_folders(options.out);
     write_results(sweep, plan, options.out);
     Schedule schedule(sweep, plan, options, events, safe_points);
     const auto workers = std::min<std::size_t>(options.jobs, plan.jobs.size());
@@ -202,7 +196,7 @@ std::vector<JobStatus> run_plan(const Sweep& sweep, const Plan& plan, const Swee
 JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, const SweepOptions& options) {
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
         if (plan.jobs[i].id != id) continue;
-        make_folder(options.out);
+        make_folders(options.out);
         if (!plan.jobs[i].problem.empty()) return {JobState::failed, plan.jobs[i].problem, {}};
         const SafePoints safe_points;
         auto status = worked_on(plan, i, options, safe_points);

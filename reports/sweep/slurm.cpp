@@ -65,7 +65,7 @@ std::string submit(const Job& job, const std::string& after, const SweepOptions&
                    const std::vector<std::string>& command, const std::vector<std::string>& sbatch_words) {
     const auto folder = folder_of(options.out, job);
     const auto log = options.out / "slurm.log";
-    fs::create_directories(folder);
+    make_folders(folder);
     std::vector<std::string> words{"sbatch", "--parsable", "--job-name",
                                    job.id,   "--output",   (folder / "slurm.txt").string()};
     if (!after.empty())
@@ -97,7 +97,7 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
                         const std::function<std::vector<std::string>(const Job&)>& command,
                         const std::vector<std::string>& sbatch_words) {
     const SafePoints safe_points;  // a number of Slurm's that is not kept would have its job submitted twice
-    fs::create_directories(options.out / "jobs");
+    make_folders(options.out / "jobs");
     write_results(sweep, plan, options.out);
     auto numbers = submitted_before(options.out);
     std::set<std::string> queued;

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
+#include "base/error.hpp"
 #include "base/files/aside.hpp"
 #include "ingest/export/bvh/bvh_writer.hpp"
 #include "ingest/export/fit_name.hpp"
@@ -26,19 +25,23 @@ class BvhExport : public ExportFile {
         for (std::size_t p = 0; p < persons.size(); ++p) {
             persons[p].topology.names = names_;
             const auto path = persons.size() == 1 ? path_ : of_person(p + 1);
-            auto& file = files_.emplace_back(path, std::make_unique<Aside>(path));
-            std::ofstream stream(file.second->partial(), std::ios::binary);
-            stream << bvh_text(persons[p], context_.subjects.fps);
-            stream.close();
-            complete_ = complete_ && stream.good();
+            auto& file = files_.emplace_back(path, std::make_unique<Aside>(path, context_.sync)).second;
+            file->write(bvh_text(persons[p], context_.subjects.fps));
+            file->settle();
         }
     }
 
     std::vector<fs::path> finish() override {
         std::vector<fs::path> paths;
-        for (auto& [path, file] : files_) {
-            file->commit(complete_);
-            paths.push_back(path);
+        try {
+            for (auto& [path, file] : files_) {
+                file->commit();
+                paths.push_back(path);
+            }
+        } catch (const Error&) {
+            std::error_code ignored;
+            for (const auto& path : paths) fs::remove(path, ignored);
+            throw;
         }
         return paths;
     }
@@ -56,7 +59,6 @@ class BvhExport : public ExportFile {
     const ExportContext& context_;
     std::vector<std::string> names_;
     std::vector<std::pair<fs::path, std::unique_ptr<Aside>>> files_;
-    bool complete_ = true;
 };
 
 }  // namespace

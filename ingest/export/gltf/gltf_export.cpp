@@ -25,7 +25,7 @@ class GltfExport : public ExportFile {
     }
 
     std::vector<std::filesystem::path> finish() override {
-        write_whole(path_, bytes_);
+        write_whole(path_, bytes_, context_.sync);
         return {path_};
     }
 

@@ -4,7 +4,6 @@
 
 #include <unordered_set>
 
-#include "base/files/aside.hpp"
 #include "ingest/export/fit_name.hpp"
 #include "ingest/export/npz/npz_writer.hpp"
 #include "ingest/export/skeletons.hpp"
@@ -17,7 +16,7 @@ namespace fs = std::filesystem;
 class NpzExport : public ExportFile {
   public:
     NpzExport(const fs::path& path, const ExportContext& context)
-        : path_(path), context_(context), aside_(path), npz_(aside_.partial()) {}
+        : path_(path), context_(context), npz_(path, context.sync) {}
 
     void add(const ExportClip& clip) override {
         const auto name = free_name(clip.name);
@@ -43,7 +42,7 @@ class NpzExport : public ExportFile {
         npz_.add("fps", {}, std::span<const double>(&subjects.fps, 1));
         npz_.add("program", "actformer " ACTFORMER_VERSION);
         npz_.add("source", context_.source);
-        aside_.commit(npz_.finish());
+        npz_.finish();
         return {path_};
     }
 
@@ -60,7 +59,6 @@ class NpzExport : public ExportFile {
 
     fs::path path_;
     const ExportContext& context_;
-    Aside aside_;
     NpzWriter npz_;
     std::vector<std::string> clips_, names_;  ///< as they are called, and as their arrays are
     std::vector<std::int64_t> labels_;

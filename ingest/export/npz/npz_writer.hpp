@@ -13,7 +13,7 @@ namespace actformer::ingest {
 /// A zip archive with a NAME.npy a array, each in format 1.0 and C order. Texts become arrays of UCS-4 as wide as the longest.
 class NpzWriter {
   public:
-    explicit NpzWriter(const std::filesystem::path& path) : zip_(path) {}
+    explicit NpzWriter(const std::filesystem::path& path, Sync sync = Sync::now) : zip_(path, sync) {}
 
     using Shape = std::vector<std::uint64_t>;
     void add(const std::string& name, const Shape& shape, std::span<const float> values);
@@ -22,8 +22,8 @@ class NpzWriter {
     void add(const std::string& name, const std::vector<std::string>& texts);  ///< UTF-8
     void add(const std::string& name, const std::string& text);                ///< of shape ()
 
-    /// False where not all of it could be written.
-    bool finish() { return zip_.finish(); }
+    /// The file appears. Throws Error where not all of it could be written.
+    void finish() { zip_.finish(); }
 
   private:
     void add_bytes(const std::string& name, const std::string& type, const Shape& shape,

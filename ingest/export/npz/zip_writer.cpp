@@ -47,10 +47,8 @@ std::uint64_t or_most(std::uint64_t value, std::uint64_t most) {
 
 }  // namespace
 
-ZipWriter::ZipWriter(const std::filesystem::path& path) : file_(path, std::ios::binary) {}
-
 void ZipWriter::put(std::string_view bytes) {
-    file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file_.write(bytes);
     at_ += bytes.size();
 }
 
@@ -75,7 +73,7 @@ void ZipWriter::add(const std::string& name, std::span<const std::string_view> p
     members_.push_back(std::move(member));
 }
 
-bool ZipWriter::finish() {
+void ZipWriter::finish() {
     const auto start = at_;
     for (const auto& m : members_) {
         const auto extra =
@@ -98,8 +96,7 @@ bool ZipWriter::finish() {
     Record last;
     last.u32(0x06054B50).u16(0).u16(0).u16(or_most(count, most16)).u16(or_most(count, most16));
     put(last.u32(or_most(size, most32)).u32(or_most(start, most32)).u16(0).bytes());
-    file_.close();
-    return file_.good();
+    file_.commit();
 }
 
 }  // namespace actformer::ingest

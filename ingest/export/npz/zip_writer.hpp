@@ -3,11 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/files/aside.hpp"
 
 namespace actformer::ingest {
 
@@ -15,13 +16,13 @@ namespace actformer::ingest {
 /// take zip64 (APPNOTE 4.3.14, 4.5.3), others do not.
 class ZipWriter {
   public:
-    explicit ZipWriter(const std::filesystem::path& path);
+    explicit ZipWriter(const std::filesystem::path& path, Sync sync = Sync::now) : file_(path, sync) {}
 
     /// A member of these parts, one after the other. Names are UTF-8 and each its own.
     void add(const std::string& name, std::span<const std::string_view> parts);
 
-    /// Writes the list of members. False where not all of it could be written.
-    bool finish();
+    /// Writes the list of members; the archive appears at its path. Throws Error where not all of it could be written.
+    void finish();
 
   private:
     struct Member {
@@ -30,7 +31,7 @@ class ZipWriter {
         std::uint64_t size = 0, offset = 0;
     };
     void put(std::string_view bytes);
-    std::ofstream file_;
+    Aside file_;
     std::vector<Member> members_;
     std::uint64_t at_ = 0;
 };

@@ -8,7 +8,7 @@ namespace {
 class PublicLayoutExport : public ExportFile {
   public:
     PublicLayoutExport(const std::filesystem::path& path, const ExportContext& context)
-        : path_(path), writer_(path) {
+        : path_(path), writer_(path, context.sync) {
         writer_.describe(context.subjects);
         writer_.note("program", "actformer " ACTFORMER_VERSION);
         writer_.note("source", context.source);

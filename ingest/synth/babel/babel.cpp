@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/files/aside.hpp"
+#include "base/files/file.hpp"
 #include "base/threads/parallel.hpp"
 #include "ingest/export/npz/npz_writer.hpp"
 #include "ingest/synth/babel/acts.hpp"
@@ -61,16 +61,15 @@ std::uint64_t write_npz(const fs::path& file, const SmplMotion& motion, double f
     }
     const std::uint64_t frames = motion.size();
     const std::vector<double> betas(16, 0), soft_tissue(frames * 8, 0);
-    fs::create_directories(file.parent_path());
-    Aside aside(file);
-    NpzWriter npz(aside.partial());
+    make_folders(file.parent_path());
+    NpzWriter npz(file, Sync::later);
     npz.add("trans", {frames, 3}, way);
     npz.add("gender", std::string("neutral"));
     npz.add("mocap_framerate", {}, std::span(&fps, 1));
     npz.add("betas", {16}, betas);
     npz.add("dmpls", {frames, 8}, soft_tissue);
     npz.add("poses", {frames, 3 * joints_of_smplh}, poses);
-    aside.commit(npz.finish());
+    npz.finish();
     return fs::file_size(file);
 }
 

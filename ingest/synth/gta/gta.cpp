@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "base/files/aside.hpp"
 #include "base/hdf5/writer.hpp"
 #include "base/threads/parallel.hpp"
 #include "ingest/synth/folder.hpp"
@@ -82,12 +81,11 @@ void write_skeleton_file(const fs::path& file) {
         parent[above * gta_joints + j] = 1;
         adjacency[above * gta_joints + j] = adjacency[j * gta_joints + above] = 1;
     }
-    Aside aside(file);
-    hdf5::Writer writer(aside.partial());
+    hdf5::Writer writer(file);
     writer.write<float>("parent", {gta_joints, gta_joints}, parent);
     writer.write<float>("adjacency", {gta_joints, gta_joints}, adjacency);
     writer.write<float>("avglength", {gta_joints}, lengths);
-    aside.commit(writer.finish());
+    writer.finish();
 }
 
 }  // namespace
@@ -134,12 +132,11 @@ StandInSummary synthesise_gta(const StandInOptions& options) {
             counting.clip_done(clips[i][0].size(), 0);
         });
         const auto file = options.folder / fmt::format("gta_combat_{}p.h5", persons);
-        Aside aside(file);
-        hdf5::Writer writer(aside.partial());
+        hdf5::Writer writer(file);
         for (std::size_t i = 0; i < count; ++i)
             writer.write<float>(fmt::format("{:05}_A001", i), {3 * persons, gta_joints, clips[i][0].size()},
                                 layout(clips[i]));
-        aside.commit(writer.finish());
+        writer.finish();
         counting.add_bytes(fs::file_size(file));
     }
     return counting.summary();

@@ -23,7 +23,7 @@ std::uint32_t checksum_by_hdf5(const std::vector<float>& values) {
     {
         hdf5::Writer file(path);
         file.write<float>("values", {values.size()}, values, values.size());
-        EXPECT_TRUE(file.finish());
+        file.finish();
     }
     const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     const hdf5::Handle set(H5Dopen2(file.get(), "values", H5P_DEFAULT), H5Dclose);
@@ -69,7 +69,7 @@ TEST(Fletcher32, ChunksOfPiecesAreReadBackByHdf5) {
         hdf5::Writer file(path);
         file.write_pieces("values", {1000, 2, 3}, {all.first(6), all.subspan(6, 2400), {}, all.subspan(2406)},
                           256);
-        EXPECT_TRUE(file.finish());
+        file.finish();
     }
     const hdf5::Reader file(path);
     EXPECT_EQ(file.shape("values"), (hdf5::Shape{1000, 2, 3}));

@@ -50,7 +50,7 @@ struct HostileFile : testing::Test {
     void write(hsize_t rows_a_chunk) const {
         hdf5::Writer writer(path);
         writer.write<float>("motion", {4241, 3}, std::vector<float>(4241 * 3, 1.5F), rows_a_chunk);
-        ASSERT_TRUE(writer.finish());
+        writer.finish();
     }
     std::string refusal_to_read() const {
         return refusal([&] { hdf5::Reader(path).read<float>("motion"); });

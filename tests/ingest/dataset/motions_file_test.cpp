@@ -27,7 +27,7 @@ std::filesystem::path file_with(const TempDir& dir, std::uint64_t channels,
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i);
     file.write<float>("A001_0", {channels, 1, 2}, values);
     if (add) add(file);
-    EXPECT_TRUE(file.finish());
+    file.finish();
     return path;
 }
 
@@ -180,7 +180,7 @@ TEST(MotionsFile, RefusesALengthThatWrapsAround) {
     const auto path = dir / "motions.h5";
     hdf5::Writer file(path);
     file.write<float>("A001_0", {3, 2, 4241}, std::vector<float>(3 * 2 * 4241));
-    ASSERT_TRUE(file.finish());
+    file.finish();
     auto bytes = read_file(path);
     const std::uint64_t frames = 4241, wraps = 3074457345618258603;  // times 6 it is 2 modulo 2^64
     for (std::size_t at = 0; at + 8 <= bytes.size(); ++at)

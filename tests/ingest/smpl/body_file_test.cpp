@@ -98,7 +98,7 @@ TEST_P(SmplToyOnDevice, JointsAndVerticesAreThoseOfTheFormulas) {
     file.add("betas", {10}, std::vector<double>(betas.begin(), betas.end()));
     file.add("joints", {frames, smpl_joints, 3}, skinning.joints().download());
     file.add("vertices", {frames, 96, 3}, skinning.vertices().download());
-    ASSERT_TRUE(file.finish());
+    file.finish();
     const auto said = run_command("/usr/bin/python3 " + source("tests/ingest/smpl/smpl_oracle.py") + " " +
                                   toy(GetParam()) + " " + (folder / "posed.npz").string());
     ASSERT_EQ(said.exit, 0) << said.output;

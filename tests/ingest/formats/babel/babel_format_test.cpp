@@ -47,7 +47,7 @@ void write_amass(const fs::path& path, const Recorded& r) {
     npz.add("poses", {r.frames, r.numbers}, poses);
     npz.add("betas", {16}, std::vector<double>(16));
     if (!r.rate.empty()) npz.add(r.rate, {}, std::vector<double>{r.fps});
-    ASSERT_TRUE(npz.finish());
+    npz.finish();
 }
 
 std::string label(const std::string& id, const std::string& categories, const std::string& times) {

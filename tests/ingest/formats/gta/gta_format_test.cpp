@@ -91,7 +91,7 @@ void write_public(const fs::path& path, const std::string& name, std::size_t per
     hdf5::Writer file(path);
     const auto values = public_motion(persons, frames);
     file.write<float>(name, {3 * persons, gta_joints, frames}, std::span<const float>(values));
-    ASSERT_TRUE(file.finish());
+    file.finish();
 }
 
 std::string jta_row(int frame, int person, int joint, double x, double y, double z) {
@@ -128,7 +128,7 @@ TEST_F(GtaOnDevice, TakesLengthsFromTheirFile) {
     {
         hdf5::Writer file(dir / "gta_adjacency.h5");
         file.write<float>("avglength", {gta_joints}, std::span<const float>(lengths));
-        ASSERT_TRUE(file.finish());
+        file.finish();
     }
     write_public(dir / "raw/a.h5", "x_A001", 2, 9);
     fs::copy(dir / "gta_adjacency.h5", dir / "raw/gta_adjacency.h5");
@@ -160,7 +160,7 @@ TEST_F(GtaOnDevice, SaysWhatIsNoMotionOfItsLayout) {
         file.write<float>("nan", {6, gta_joints, 5}, std::span<const float>(nan));
         file.write<float>("joints", {6, 11, 10}, std::span<const float>(good));
         file.write<float>("flat", {good.size()}, std::span<const float>(good));
-        ASSERT_TRUE(file.finish());
+        file.finish();
     }
     const auto summary = run(dir / "raw");
     EXPECT_EQ(summary.left_out.at("broken"), 4U);

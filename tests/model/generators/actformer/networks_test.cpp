@@ -379,7 +379,7 @@ TEST_F(ActformerNetworks, AgreeWithNumPy) {
             write("latent", latent);
             write("motion", motion);
             write("labels", labels);
-            ASSERT_TRUE(file.finish());
+            file.finish();
         }
         const auto run = run_command("/usr/bin/python3 " + oracle + " " + (dir / "case.h5").string() + " " +
                                      (dir / "out.h5").string());
