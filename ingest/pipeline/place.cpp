@@ -1,0 +1,72 @@
+#include "ingest/pipeline/place.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/files/file.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* inside = ".partial";
+constexpr const char* delivering = "delivering";  // in the workplace: some of its data may have been moved up
+constexpr const char* record = "ingest.json";     // what tells a finished folder, and so is moved last
+
+/// What is in OUT apart from the workplace, the record last.
+std::vector<fs::path> entries_of(const fs::path& out) {
+    std::vector<fs::path> all;
+    for (const auto& entry : fs::directory_iterator(out))
+        if (const auto name = entry.path().filename(); name != inside && name != "lost+found")
+            all.push_back(name);
+    std::ranges::sort(all, {}, [](const fs::path& name) { return std::pair(name == record, name); });
+    return all;
+}
+
+void move_all(const fs::path& from, const fs::path& to) {
+    for (const auto& name : entries_of(from)) {
+        std::error_code error;
+        fs::rename(from / name, to / name, error);
+        if (error) throw Error("{}: cannot be put in place: {}", (to / name).string(), error.message());
+    }
+}
+
+}  // namespace
+
+fs::path workplace_of(const fs::path& out) {
+    std::error_code ignored;
+    return fs::is_directory(out, ignored) ? out / inside : fs::path(without_links(out).string() + inside);
+}
+
+bool is_taken(const fs::path& out) {
+    std::error_code ignored;
+    if (!fs::is_directory(out, ignored)) return fs::exists(out, ignored);
+    return !entries_of(out).empty() && !fs::exists(out / inside / delivering);
+}
+
+void put_in_place(const fs::path& data, const fs::path& workplace, const fs::path& out) {
+    sync_folder(data);
+    if (workplace.filename() == inside) {
+        write_whole(workplace / delivering, "");
+        move_all(data, out);
+        sync_folder(out);
+        fs::remove(workplace / delivering);  // from here on it is finished
+        return;
+    }
+    const auto to = without_links(out);
+    std::error_code error;
+    fs::rename(data, to, error);
+    if (error) throw Error("{}: cannot be put in place: {}", out.string(), error.message());
+    sync_names(to.has_parent_path() ? to.parent_path() : fs::path("."));
+}
+
+void take_back(const fs::path& data, const fs::path& workplace) {
+    if (!fs::exists(workplace / delivering)) return;
+    make_folders(data);
+    move_all(workplace.parent_path(), data);
+    fs::remove(workplace / delivering);
+}
+
+}  // namespace actformer::ingest
