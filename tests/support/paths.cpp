@@ -6,6 +6,10 @@ std::string program() {
     return ACTFORMER_PROGRAM;
 }
 
+std::string failing_calls() {
+    return ACTFORMER_FAILING_CALLS;
+}
+
 std::string source(const std::string& file) {
     return ACTFORMER_SOURCE "/" + file;
 }

@@ -8,6 +8,9 @@ namespace actformer::test {
 /// The program built beside the tests.
 std::string program();
 
+/// The library that lets a program's calls fail (failing_calls.cpp).
+std::string failing_calls();
+
 /// A file of this project, as in "README.md".
 std::string source(const std::string& file);
 

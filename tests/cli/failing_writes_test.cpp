@@ -1,0 +1,228 @@
+// Every command that writes, with each of its calls of the system that change files failing in turn: the right bytes, or exit code 1,
+// one line that names the file, and nothing left over.
+//
+// ctest tries some of the calls. ACTFORMER_ALL_FAULTS=1 tries all of them, each alone and with all behind it, and prints how many.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <regex>
+#include <set>
+
+#include "eval/stgcn/weights.hpp"
+#include "ingest/dataset/dataset.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+#include "tests/support/toy_dataset.hpp"
+#include "tests/support/tree.hpp"
+
+namespace actformer::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Tree = std::map<std::string, std::string>;
+
+constexpr long tried_in_ctest = 5;  // of a command's calls
+
+enum class AfterFailure {
+    nothing,  ///< files that were finished before may stay, whole
+    resumes   ///< what is done stays, and the same command goes on from there
+};
+
+struct Writing {
+    std::string name, arguments;  ///< {} is the folder that it writes into
+    AfterFailure after = AfterFailure::nothing;
+    std::string compared = ".*";  ///< which files have the same bytes in every run
+};
+
+struct Ran {
+    CommandResult result;
+    long calls = 0;
+};
+
+struct FailingWrites : testing::Test {
+    TempDir dir;
+    int runs = 0;
+
+    std::string at(const std::string& name) const { return (dir / name).string(); }
+
+    fs::path fresh() {
+        const auto out = dir / fmt::format("out-{}", runs++);
+        fs::create_directories(out);
+        return out;
+    }
+
+    Ran run(const Writing& writing, const fs::path& out, long call, bool on = false) const {
+        const auto arguments = std::regex_replace(writing.arguments, std::regex("\\{\\}"), out.string());
+        Ran ran;
+        ran.result =
+            run_command(fmt::format("XDG_CACHE_HOME={0}/cache POCL_CACHE_DIR=${{POCL_CACHE_DIR:-{1}/pocl}} "
+                                    "LD_PRELOAD={2} FAIL_BELOW={0} "
+                                    "FAIL_AT={3} {4} FAIL_COUNT={1}/count {5} {6}",
+                                    out.string(), dir.path().string(), failing_calls(), call,
+                                    on ? "FAIL_ON=1" : "", program(), arguments));
+        ran.calls = std::atol(read_file(dir / "count").c_str());
+        return ran;
+    }
+
+    static Tree compared(const Writing& writing, const fs::path& out) {
+        auto files = tree(out);
+        const std::regex which(writing.compared);
+        std::erase_if(files, [&](const auto& file) { return !std::regex_match(file.first, which); });
+        return files;
+    }
+
+    static std::string names(const Tree& files) {
+        std::string all;
+        for (const auto& [name, bytes] : files) all += name + " ";
+        return all;
+    }
+
+    void check_failed(const Writing& writing, const Ran& ran, const fs::path& out, const Tree& right) const {
+        const auto& said = ran.result.output;
+        EXPECT_EQ(ran.result.exit, 1) << said;
+        const auto at = said.rfind("actformer: ");
+        ASSERT_NE(at, std::string::npos) << said;
+        EXPECT_EQ(lines_in(said.substr(at)), 1) << said;
+        EXPECT_NE(said.find(out.string(), at), std::string::npos) << "names no file: " << said;
+        if (writing.after == AfterFailure::resumes) {
+            const auto again = run(writing, out, 0);
+            EXPECT_EQ(again.result.exit, 0) << again.result.output;
+            EXPECT_TRUE(compared(writing, out) == right) << names(compared(writing, out));
+            return;
+        }
+        for (const auto& [name, bytes] : compared(writing, out)) {
+            const auto whole = right.find(name);
+            EXPECT_TRUE(whole != right.end() && whole->second == bytes) << "left over: " << name;
+        }
+    }
+
+    void check_one(const Writing& writing, const Tree& right, long call, bool on) {
+        SCOPED_TRACE(fmt::format("{}, call {}{}", writing.name, call, on ? " and all behind it" : ""));
+        const auto out = fresh();
+        const auto ran = run(writing, out, call, on);
+        if (ran.result.exit == 0)
+            EXPECT_TRUE(compared(writing, out) == right)
+                << "exit 0 with other files: " << names(compared(writing, out)) << "\n"
+                << ran.result.output;
+        else
+            check_failed(writing, ran, out, right);
+        for (const auto& [name, bytes] : tree(out))
+            if (writing.after == AfterFailure::nothing || ran.result.exit == 0)
+                EXPECT_EQ(name.find(".partial"), std::string::npos) << "left over: " << name;
+        fs::remove_all(out);
+    }
+
+    void check(const Writing& writing) {
+        const auto out = fresh();
+        const auto whole = run(writing, out, 0);
+        ASSERT_EQ(whole.result.exit, 0) << whole.result.output;
+        const auto right = compared(writing, out);
+        ASSERT_FALSE(right.empty());
+        ASSERT_GE(whole.calls, 4) << "it opens, writes, closes and renames at least";
+        const bool all = std::getenv("ACTFORMER_ALL_FAULTS") != nullptr;
+        const auto step = all ? 1 : std::max(1L, (whole.calls + tried_in_ctest - 1) / tried_in_ctest);
+        long tried = 0;
+        for (long call = whole.calls; call >= 1; call -= step)
+            for (const bool on : {false, true})
+                if (all || on == (tried % 2 != 0) || step == 1) {
+                    check_one(writing, right, call, on);
+                    ++tried;
+                }
+        if (all) fmt::print("{:<24}{:>5} calls, {:>5} runs\n", writing.name, whole.calls, tried);
+    }
+};
+
+std::string weights_for(const fs::path& dataset, const TempDir& dir) {
+    const auto& header = ingest::Dataset(dataset).header();
+    const auto graph = eval::recogniser_graph(header.topology.parents);
+    const auto channels = header.persons * header.representation.numbers();
+    eval::write_weights(
+        dir / "recogniser.h5",
+        eval::random_weights(static_cast<std::uint32_t>(channels),
+                             static_cast<std::uint32_t>(header.classes.size()), graph, 0.125, 5));
+    return (dir / "recogniser.h5").string();
+}
+
+}  // namespace
+
+TEST_F(FailingWrites, Synth) {
+    check({"synth ntu", "synth ntu -o {}/raw --clips 2 --threads 1"});
+    check({"synth gta", "synth gta -o {}/raw --clips 2 --threads 1"});
+    check({"synth babel", "synth babel -o {}/raw --clips 2 --threads 1"});
+}
+
+TEST_F(FailingWrites, Ingest) {
+    const auto bvh = (toy().parent_path() / "raw").string();
+    const std::string splits = " --name '{action}_{part}_{index}' --split s/train=part:a --threads 1";
+    check({"ingest bvh", "ingest bvh " + bvh + " -o {}/toy" + splits, AfterFailure::resumes});
+    check({"ingest bvh, folder there", "ingest bvh " + bvh + " -o {}" + splits, AfterFailure::resumes});
+    ASSERT_EQ(run_actformer("synth ntu -o " + at("raw") + " --clips 4 --actions 1,50").exit, 0);
+    check({"ingest ntu", "ingest ntu " + at("raw") + " -o {}/ntu --threads 1", AfterFailure::resumes});
+    ASSERT_EQ(run_actformer("export " + toy().string() + " -o " + at("m.h5")).exit, 0);
+    check({"ingest motions", "ingest motions " + at("m.h5") + " -o {}/motions --threads 1",
+           AfterFailure::resumes});
+}
+
+TEST_F(FailingWrites, Export) {
+    const auto clip = " --clip " + ingest::Dataset(toy_pairs()).clips()[0].name;
+    const auto from = "export " + toy_pairs().string() + clip;
+    for (const auto* kind : {"h5", "npz", "glb", "bvh"})
+        check({fmt::format("export .{}", kind), from + " -o {}/clip." + kind});
+    for (const auto* kind : {"h5", "bvh"})
+        check({fmt::format("export --format {}", kind), from + " -o {}/clips --format " + kind});
+    check({"export all .h5", "export " + toy().string() + " -o {}/all.h5"});
+}
+
+TEST_F(FailingWrites, Scores) {
+    const auto weights = weights_for(toy(), dir);
+    ASSERT_EQ(run_actformer("export " + toy().string() + " -o " + at("m.h5") + " --split s/train").exit, 0);
+    check({"features",
+           "features --recogniser " + weights + " " + toy().string() + " --split s/test -o {}/f.h5"});
+    check({"classify", "classify --recogniser " + weights + " " + at("m.h5") + " -o {}/c.csv"});
+    ASSERT_EQ(
+        run_actformer("features --recogniser " + weights + " " + toy().string() + " -o " + at("f.h5")).exit,
+        0);
+    check({"score of features",
+           "score --real-features " + at("f.h5") + " --generated-features " + at("f.h5") + " -o {}/s.json"});
+    check({"score",
+           "score --recogniser " + weights + " --real " + toy().string() + " --split s/train --generated " +
+               at("m.h5") + " -o {}/s.json --keep-features {}/kept",
+           AfterFailure::resumes});
+}
+
+TEST_F(FailingWrites, Pictures) {
+    if (!fs::exists(fs::path(program()).parent_path() / "actformer-render"))
+        GTEST_SKIP() << "there is no render";
+    for (const auto* kind : {"png", "gif", "mp4"})
+        check({fmt::format("render .{}", kind),
+               "render " + toy().string() + " --count 1 --size 60 -o {}/a." + kind});
+}
+
+TEST_F(FailingWrites, Report) {
+    write_file(dir / "sweep/results.json", R"({"format": 1, "sweep": "s", "version": "0.1.0", "rows": []})");
+    check({"report", "report " + at("sweep") + " -o {}/r.html --csv {}/r.csv --latex {}/r.tex"});
+}
+
+TEST_F(FailingWrites, Trainings) {
+    if (!fs::exists(fs::path(program()).parent_path() / "actformer-train"))
+        GTEST_SKIP() << "there is no libtorch";
+    write_file(dir / "r.yaml",
+               "model: recogniser\nwidth: 0.25\nframes: 16\nbatch: 12\nepochs: 2\nrate_drops: []\n"
+               "train_split: s/train\ntest_split: s/test\nseed: 4\nthreads: 1\ncheckpoint_minutes: 0\n");
+    write_file(
+        dir / "g.yaml",
+        "model: actformer\nframes: 16\nwidth: 16\nheads: 2\ndepth: 1\nlatent: 8\nd_width: 2\nbatch: 6\n"
+        "epochs: 1\ntrain_split: s/train\nseed: 4\nthreads: 1\ncheckpoint_minutes: 0\n");
+    const std::string data = " --data " + toy().string(), weights = ".*weights.*h5";
+    check({"train recogniser", "train recogniser -c " + at("r.yaml") + data + " -o {}/run",
+           AfterFailure::resumes, weights});
+    check({"train generator", "train generator -c " + at("g.yaml") + data + " -o {}/run",
+           AfterFailure::resumes, weights});
+    ASSERT_EQ(run_actformer("train generator -c " + at("g.yaml") + data + " -o " + at("run")).exit, 0);
+    check({"generate", "generate --generator " + at("run") + " --per-class 2 -o {}/m.h5"});
+}
+
+}  // namespace actformer::test
