@@ -70,6 +70,7 @@ void print_table(const Clips& clips, const Names& names) {
 }
 
 void run(const ClassifyOptions& options) {
+    if (!options.out.empty()) check_output(options.out);
     kernels::Device device(options.device);
     eval::FeatureExtractor extractor(device, options.recogniser, options.batch);
     const auto motions = options.open(device, extractor);

@@ -35,6 +35,8 @@ std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
 }
 
 void run(const ReportOptions& options) {
+    for (const auto& path : {options.out, options.csv, options.latex})
+        if (!path.empty()) check_output(path);
     auto measured = reports::read_measured(options.folders);
     auto tables = reports::fill_tables(measured);
     const auto figures = measured_cells(tables);

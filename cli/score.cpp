@@ -234,6 +234,7 @@ eval::Scored scored_by(const ScoreOptions& options, const eval::GenerateSets& ge
 void run(const ScoreOptions& options, const eval::GenerateSets& generate) {
     if (options.samples > 0 && (!options.as_actor() || options.generate.generator.empty()))
         throw Error("--samples is for --protocol actor with --generator; --per-class is for the others");
+    if (!options.out.empty()) check_output(options.out);
     WorkFolder work(options.out);
     const auto scored = scored_by(options, generate, work.path());
     if (!options.out.empty()) write_whole(options.out, scored.json.dump(2) + "\n");

@@ -197,6 +197,14 @@ void Aside::resize(std::uint64_t bytes) {
     if (::ftruncate(file_.get(), static_cast<off_t>(bytes)) != 0) fail();
 }
 
+std::uint64_t Aside::size() {
+    check();
+    need_file();
+    struct stat status {};
+    if (::fstat(file_.get(), &status) != 0) fail();
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
 void Aside::settle() {
     if (settled_) return;
     check();

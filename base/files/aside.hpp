@@ -39,6 +39,7 @@ class Aside {
     void write_at(std::uint64_t at, std::string_view bytes);
     void read_at(std::uint64_t at, char* to, std::size_t bytes);
     void resize(std::uint64_t bytes);
+    std::uint64_t size();
 
     /// All bytes are in the file, and on the disk: what can fail has not, but for the name.
     void settle();

@@ -12,8 +12,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* inside = ".partial";
-constexpr const char* delivering = "delivering";  // in the workplace: some of its data may have been moved up
-constexpr const char* record = "ingest.json";     // what tells a finished folder, and so is moved last
+// In the workplace: names of its data, each behind a zero byte, that may have been moved up.
+constexpr const char* delivering = "delivering";
+constexpr const char* record = "ingest.json";  // what tells a finished folder, and so is moved last
 
 /// What is in OUT apart from the workplace, the record last.
 std::vector<fs::path> entries_of(const fs::path& out) {
@@ -25,8 +26,8 @@ std::vector<fs::path> entries_of(const fs::path& out) {
     return all;
 }
 
-void move_all(const fs::path& from, const fs::path& to) {
-    for (const auto& name : entries_of(from)) {
+void move_up_or_back(const std::vector<fs::path>& names, const fs::path& from, const fs::path& to) {
+    for (const auto& name : names) {
         std::error_code error;
         fs::rename(from / name, to / name, error);
         if (error) throw Error("{}: cannot be put in place: {}", (to / name).string(), error.message());
@@ -49,8 +50,11 @@ bool is_taken(const fs::path& out) {
 void put_in_place(const fs::path& data, const fs::path& workplace, const fs::path& out) {
     sync_folder(data);
     if (workplace.filename() == inside) {
-        write_whole(workplace / delivering, "");
-        move_all(data, out);
+        const auto names = entries_of(data);
+        std::string text;
+        for (const auto& name : names) text += '\0' + name.string();
+        write_whole(workplace / delivering, text);
+        move_up_or_back(names, data, out);
         sync_folder(out);
         fs::remove(workplace / delivering);  // from here on it is finished
         return;
@@ -65,7 +69,16 @@ void put_in_place(const fs::path& data, const fs::path& workplace, const fs::pat
 void take_back(const fs::path& data, const fs::path& workplace) {
     if (!fs::exists(workplace / delivering)) return;
     make_folders(data);
-    move_all(workplace.parent_path(), data);
+    std::vector<char> scratch;
+    auto text = read_text(workplace / delivering, scratch, std::uint64_t{1} << 20);
+    std::vector<fs::path> names;
+    while (!text.empty()) {
+        text.remove_prefix(1);
+        names.emplace_back(text.substr(0, text.find('\0')));
+        text.remove_prefix(std::min(text.size(), names.back().native().size()));
+    }
+    std::erase_if(names, [&](const fs::path& name) { return !fs::exists(workplace.parent_path() / name); });
+    move_up_or_back(names, workplace.parent_path(), data);
     fs::remove(workplace / delivering);
 }
 

@@ -85,7 +85,7 @@ void run(const std::string& frames_text, const std::string& python) {
     ingest::NpzWriter file(folder.path() / "posed.npz");
     file.add("joints", {skinning.frames(), 24, 3}, skinning.joints().download());
     file.add("vertices", {skinning.frames(), body.skin.vertices(), 3}, skinning.vertices().download());
-    if (!file.finish()) throw Error("{}: no room", folder.path().string());
+    file.finish();
     fmt::print("furthest from the formulas in double: {} m\n", std::stod(peer("check")));
 }
 

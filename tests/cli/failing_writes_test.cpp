@@ -35,6 +35,7 @@ struct Writing {
     std::string name, arguments;  ///< {} is the folder that it writes into
     AfterFailure after = AfterFailure::nothing;
     std::string compared = ".*";  ///< which files have the same bytes in every run
+    bool keeps_features = false;  ///< in the user's cache
 };
 
 struct Ran {
@@ -57,12 +58,12 @@ struct FailingWrites : testing::Test {
     Ran run(const Writing& writing, const fs::path& out, long call, bool on = false) const {
         const auto arguments = std::regex_replace(writing.arguments, std::regex("\\{\\}"), out.string());
         Ran ran;
-        ran.result =
-            run_command(fmt::format("XDG_CACHE_HOME={0}/cache POCL_CACHE_DIR=${{POCL_CACHE_DIR:-{1}/pocl}} "
-                                    "LD_PRELOAD={2} FAIL_BELOW={0} "
-                                    "FAIL_AT={3} {4} FAIL_COUNT={1}/count {5} {6}",
-                                    out.string(), dir.path().string(), failing_calls(), call,
-                                    on ? "FAIL_ON=1" : "", program(), arguments));
+        const auto cache = writing.keeps_features ? out / "cache" : dir / "cache";
+        ran.result = run_command(fmt::format(
+            "timeout 120 env XDG_CACHE_HOME={} POCL_CACHE_DIR=${{POCL_CACHE_DIR:-{}/pocl}} LD_PRELOAD={} "
+            "FAIL_BELOW={} FAIL_AT={} {} FAIL_COUNT={} {} {}",
+            cache.string(), dir.path().string(), failing_calls(), out.string(), call, on ? "FAIL_ON=1" : "",
+            at("count"), program(), arguments));
         ran.calls = std::atol(read_file(dir / "count").c_str());
         return ran;
     }
@@ -187,10 +188,12 @@ TEST_F(FailingWrites, Scores) {
         0);
     check({"score of features",
            "score --real-features " + at("f.h5") + " --generated-features " + at("f.h5") + " -o {}/s.json"});
-    check({"score",
-           "score --recogniser " + weights + " --real " + toy().string() + " --split s/train --generated " +
-               at("m.h5") + " -o {}/s.json --keep-features {}/kept",
-           AfterFailure::resumes});
+    Writing score{"score",
+                  "score --recogniser " + weights + " --real " + toy().string() +
+                      " --split s/train --generated " + at("m.h5") + " -o {}/s.json --keep-features {}/kept",
+                  AfterFailure::resumes};
+    score.keeps_features = true;
+    check(score);
 }
 
 TEST_F(FailingWrites, Pictures) {

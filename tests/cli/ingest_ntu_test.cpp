@@ -19,6 +19,7 @@
 #include "tests/support/command.hpp"
 #include "tests/support/skeleton_text.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tests/support/tree.hpp"
 
 using namespace actformer::test;
 using actformer::ingest::Dataset;
@@ -26,13 +27,6 @@ using actformer::ingest::MotionsFile;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::map<std::string, std::string> tree(const fs::path& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file()) files[entry.path().lexically_relative(folder)] = read_file(entry.path());
-    return files;
-}
 
 struct IngestNtu : testing::Test {
     void clip(const std::string& name, const std::string& text) {
@@ -221,6 +215,36 @@ TEST_F(IngestNtu, FindsItsWorkDoneTheSecondTime) {
     EXPECT_EQ(tree(out()), before);
     clip("S001C001P001R001A002", plain_clip());
     EXPECT_EQ(ingest().exit, 1) << "other raw data is another request";
+}
+
+TEST_F(IngestNtu, WorksInAFolderThatIsThere) {
+    clip("S001C001P001R001A001", plain_clip());
+    ASSERT_EQ(ingest().exit, 0);
+    const auto right = tree(out() + "/ntu-1p");
+    const auto expect_made_in = [&](const std::string& name) {
+        const auto result = run_actformer("ingest ntu " + raw() + " -o " + (dir / name).string());
+        EXPECT_EQ(result.exit, 0) << name << ": " << result.output;
+        EXPECT_EQ(tree(dir / (name + "/ntu-1p")), right) << name;
+        EXPECT_TRUE(fs::exists(dir / (name + "/ingest.json"))) << name;
+        EXPECT_FALSE(fs::exists(dir / (name + "/.partial"))) << name;
+        const auto again = run_actformer("ingest ntu " + raw() + " -o " + (dir / name).string());
+        EXPECT_NE(again.output.find("complete already"), std::string::npos) << name << ": " << again.output;
+    };
+    fs::create_directories(dir / "empty");
+    expect_made_in("empty");
+    fs::create_directories(dir / "far");
+    fs::create_directory_symlink(dir / "far", dir / "link");
+    expect_made_in("link");
+    EXPECT_TRUE(fs::is_symlink(dir / "link"));
+    fs::create_directory_symlink("nowhere", dir / "dangling");
+    expect_made_in("dangling");
+    EXPECT_TRUE(fs::is_symlink(dir / "dangling") && fs::is_directory(dir / "nowhere"));
+    fs::create_directories(dir / "disk");
+    if (mount("none", (dir / "disk").c_str(), "tmpfs", 0, "size=8m") != 0)
+        GTEST_SKIP() << "no right to mount a small disk";
+    fs::create_directories(dir / "disk/lost+found");
+    expect_made_in("disk");
+    umount((dir / "disk").c_str());
 }
 
 TEST_F(IngestNtu, GivesTheSameFromAFolderAndFromAnArchive) {

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -64,6 +65,7 @@ TEST(Aside, GoesBackAndForth) {
     Aside file(dir / "a");
     file.write_at(4, "5678");
     file.write_at(0, "12");
+    EXPECT_EQ(file.size(), 8U);
     std::string read(10, 'x');
     file.read_at(0, read.data(), read.size());
     EXPECT_EQ(read, std::string("12\0\0005678\0\0", 10));
@@ -154,6 +156,8 @@ TEST(Aside, LeavesDevicesAndFifosAlone) {
     const Descriptor reader(fifo, O_RDONLY | O_NONBLOCK);
     ASSERT_EQ(::fcntl(reader.get(), F_SETFL, 0), 0);
     auto writing = std::async(std::launch::async, [&] { write_whole(fifo, text); });
+    pollfd begun{reader.get(), POLLIN, 0};
+    ASSERT_EQ(::poll(&begun, 1, 60'000), 1);  // before the writer is there one would read the end
     std::string read(text.size(), '\0');
     EXPECT_EQ(read_fully(reader.get(), read.data(), read.size(), fifo), text.size());
     EXPECT_NO_THROW(writing.get());
