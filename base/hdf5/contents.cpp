@@ -1,13 +1,11 @@
 #include "base/hdf5/contents.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
-#include <span>
 
 #include "base/checksum/checksum.hpp"
-#include "base/checksum/fletcher32.hpp"
 #include "base/error.hpp"
+#include "base/hdf5/checked_chunk.hpp"
 #include "base/hdf5/reader.hpp"
 
 namespace actformer::hdf5 {
@@ -15,8 +13,8 @@ namespace {
 
 constexpr auto other_kind = "neither numbers nor texts of one length: not written by actformer";
 
-std::string text_of(hid_t type, const Shape& shape, const std::string& values_checksum) {
-    return fmt::format("{} ({}) {}", name_of_type(type), fmt::join(shape, ", "), values_checksum);
+std::string text_of(hid_t type, const Shape& shape) {
+    return fmt::format("{} ({}) ", name_of_type(type), fmt::join(shape, ", "));
 }
 
 /// Every link below the root: "clip", "clip/label", ...
@@ -80,36 +78,21 @@ class Pieces {
     }
 
   private:
-    /// Chunks of whole rows of 4-byte values with their checksum behind: read past the library's filters, which take ten times as long.
+    /// Chunks of whole rows of 4-byte values with their checksum behind.
     bool plain_chunks() {
         const Handle plan(H5Dget_create_plist(set_.get()), H5Pclose);
-        if (size_ != 4 || H5Pget_layout(plan.get()) != H5D_CHUNKED || H5Pget_nfilters(plan.get()) != 1)
-            return false;
-        unsigned flags = 0, config = 0;
-        std::size_t values = 0;
-        if (H5Pget_filter2(plan.get(), 0, &flags, &values, nullptr, 0, nullptr, &config) !=
-            H5Z_FILTER_FLETCHER32)
-            return false;
-        Shape chunk(shape_.size());
-        H5Pget_chunk(plan.get(), static_cast<int>(chunk.size()), chunk.data());
+        const auto chunk = checked_chunk_of(plan.get(), shape_.size());
+        if (size_ != 4 || chunk.empty()) return false;
         rows_a_chunk_ = chunk[0];
         return std::equal(chunk.begin() + 1, chunk.end(), shape_.begin() + 1);
     }
 
     template <typename Use>
     bool each_chunk(const Use& use) {
-        const auto numbers = rows_a_chunk_ * row_ / size_;
-        std::vector<float> chunk(numbers + 1);
+        std::vector<float> chunk(rows_a_chunk_ * row_ / size_ + 1);
         Shape at(shape_.size(), 0);
         for (; at[0] < shape_[0]; at[0] += rows_a_chunk_) {
-            hsize_t stored = 0;
-            std::uint32_t left_out = 0, sum = 0;
-            if (H5Dget_chunk_storage_size(set_.get(), at.data(), &stored) < 0 ||
-                stored != chunk.size() * size_ ||
-                H5Dread_chunk(set_.get(), H5P_DEFAULT, at.data(), &left_out, chunk.data()) < 0)
-                return false;
-            std::memcpy(&sum, &chunk.back(), sizeof sum);
-            if (left_out != 0 || sum != fletcher32(std::span(chunk).first(numbers))) return false;
+            if (!read_checked_chunk(set_.get(), at, chunk)) return false;
             use({reinterpret_cast<const char*>(chunk.data()),
                  std::min(rows_a_chunk_, shape_[0] - at[0]) * row_});
         }
@@ -150,33 +133,40 @@ class Pieces {
 }  // namespace
 
 std::string name_of_type(hid_t type) {
-    const auto kind = H5Tget_class(type);
-    const auto bits = 8 * H5Tget_size(type);
-    if (kind == H5T_STRING && H5Tis_variable_str(type) == 0) return fmt::format("text{}", bits / 8);
-    if (kind != H5T_INTEGER && kind != H5T_FLOAT) return {};
-    const auto* order = H5Tget_order(type) == H5T_ORDER_BE ? "be" : "";
-    if (kind == H5T_FLOAT) return fmt::format("float{}{}", bits, order);
-    return fmt::format("{}int{}{}", H5Tget_sign(type) == H5T_SGN_NONE ? "u" : "", bits, order);
+    if (H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0)
+        return fmt::format("text{}", H5Tget_size(type));
+    static const std::vector<std::pair<const char*, hid_t>> numbers{
+        {"float32", H5T_IEEE_F32LE}, {"uint32", H5T_STD_U32LE},     {"uint64", H5T_STD_U64LE},
+        {"int64", H5T_STD_I64LE},    {"float64", H5T_IEEE_F64LE},   {"int32", H5T_STD_I32LE},
+        {"int8", H5T_STD_I8LE},      {"uint8", H5T_STD_U8LE},       {"int16", H5T_STD_I16LE},
+        {"uint16", H5T_STD_U16LE},   {"float32be", H5T_IEEE_F32BE}, {"float64be", H5T_IEEE_F64BE},
+        {"int16be", H5T_STD_I16BE},  {"uint16be", H5T_STD_U16BE},   {"int32be", H5T_STD_I32BE},
+        {"uint32be", H5T_STD_U32BE}, {"int64be", H5T_STD_I64BE},    {"uint64be", H5T_STD_U64BE}};
+    for (const auto& [name, number] : numbers)
+        if (H5Tequal(type, number) > 0) return name;
+    return {};
 }
 
 void Contents::add_group(const std::string& path) {
-    said_[path] = "group";
+    said_[path] = {"group", {}};
 }
 
 void Contents::add_array(const std::string& path, hid_t type, const Shape& shape,
                          const std::string& values_checksum) {
-    said_[path] = text_of(type, shape, values_checksum);
+    said_[path] = {text_of(type, shape), values_checksum};
 }
 
 // No name of a group or array ends with a slash, so that no attribute is taken for one.
 void Contents::add_attribute(const std::string& path, const std::string& name, hid_t type, const Shape& shape,
                              std::string_view values) {
-    said_[path + "/\n" + name] = text_of(type, shape, actformer::checksum(values));
+    said_[path + "/\n" + name] = {text_of(type, shape), actformer::checksum(values)};
 }
 
-std::string Contents::checksum() const {
+std::string Contents::checksum(const std::string& without) const {
     Checksum all;
-    for (const auto& [what, said] : said_) all.add(fmt::format("{} {}\n{}\n", what.size(), what, said));
+    for (const auto& [path, said] : said_)
+        all.add(fmt::format("{} {}\n{}{}\n", path.size(), path, said.what,
+                            path == without && !without.empty() ? std::string() : said.values));
     return all.hex();
 }
 
@@ -193,6 +183,14 @@ std::string Reader::checksum_of(const Array& array, const See& see) const {
 }
 
 std::string Reader::contents(const See& see) const {
+    return contents_but({}, see);
+}
+
+std::string Reader::metadata(const std::string& array) const {
+    return contents_but(array, {});
+}
+
+std::string Reader::contents_but(const std::string& without, const See& see) const {
     std::map<std::string, H5L_type_t> links;
     if (H5Lvisit(file_.get(), H5_INDEX_NAME, H5_ITER_INC, add_link, &links) < 0)
         fail("its list of contents cannot be read: damaged");
@@ -206,7 +204,8 @@ std::string Reader::contents(const See& see) const {
         if (kind != H5L_TYPE_HARD) fail("'{}' is a link: not written by actformer", path);
         if (is_array(path)) {
             const auto array = open(path);
-            contents.add_array(path, array.type.get(), array.shape, checksum_of(array, see));
+            contents.add_array(path, array.type.get(), array.shape,
+                               path == without ? std::string() : checksum_of(array, see));
             add_attributes_of(array.set, path);
             continue;
         }
@@ -215,7 +214,7 @@ std::string Reader::contents(const See& see) const {
         contents.add_group(path);
         add_attributes_of(group, path);
     }
-    return contents.checksum();
+    return contents.checksum(without);
 }
 
 }  // namespace actformer::hdf5

@@ -22,13 +22,19 @@ class Contents {
     void add_attribute(const std::string& path, const std::string& name, hid_t type, const Shape& shape,
                        std::string_view values);
 
-    std::string checksum() const;
+    /// `without`: an array whose values do not count, only its type and shape.
+    std::string checksum(const std::string& without = {}) const;
 
   private:
-    std::map<std::string, std::string> said_;
+    struct Said {
+        std::string what;    ///< type and shape
+        std::string values;  ///< their checksum
+    };
+    std::map<std::string, Said> said_;
 };
 
-/// "float32", "uint64", "text12" ("be" behind where the high byte comes first). Empty for any other type.
+/// "float32", "uint64", "text12" ("be" behind where the high byte comes first). Empty for any other type, also for numbers of an unusual
+/// layout: in those the same bytes are other numbers.
 std::string name_of_type(hid_t type);
 
 }  // namespace actformer::hdf5

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <fstream>
 
+#include "base/checksum/own_checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/lock.hpp"
 
@@ -22,6 +23,11 @@ bool left_open(const std::filesystem::path& path) {
            start[11] != 0;
 }
 
+[[noreturn]] void refuse_damaged(const std::string& name) {
+    throw Error("{}: damaged: the checksum at its end is of other bytes; make it again, or copy it again",
+                name);
+}
+
 }  // namespace
 
 Handle open_to_read(const std::filesystem::path& path) {
@@ -33,6 +39,9 @@ Handle open_to_read(const std::filesystem::path& path) {
         throw Error("{}: not a file; an HDF5 file is expected", path.string());
     if (::access(path.c_str(), R_OK) != 0)
         throw Error("{}: cannot be read: {}", path.string(), std::generic_category().message(errno));
+    if (std::filesystem::file_size(path) == 0)
+        throw Error("{}: empty; an HDF5 file is expected", path.string());
+    if (own_checksum_of_file(path) == OwnChecksum::wrong) refuse_damaged(path.string());
     Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     if (file) return file;
     if (FileLock::is_held(path))  // as the library holds what it writes
@@ -50,6 +59,7 @@ Handle open_to_read(const std::filesystem::path& path) {
 
 Handle open_in_memory(std::string_view image, const std::string& name) {
     silence();
+    if (own_checksum(image) == OwnChecksum::wrong) refuse_damaged(name);
     const auto access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "opening a file in memory");
     H5Pset_fapl_core(access.get(), std::size_t{1} << 16, false);
     if (image.empty() || H5Pset_file_image(access.get(), const_cast<char*>(image.data()), image.size()) < 0)

@@ -9,7 +9,7 @@
 namespace actformer::hdf5 {
 
 /// Throws Error: no such file, no regular file, open for writing elsewhere, left open by a program that was killed, no HDF5 file, or
-/// damaged.
+/// damaged, as the checksum at its end tells where there is one.
 Handle open_to_read(const std::filesystem::path& path);
 
 /// A copy of `image`. Throws Error, beginning with `name`.

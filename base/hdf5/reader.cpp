@@ -4,6 +4,7 @@
 #include <fstream>
 #include <limits>
 
+#include "base/hdf5/checked_chunk.hpp"
 #include "base/hdf5/opening.hpp"
 #include "base/hdf5/variable_texts.hpp"
 
@@ -50,8 +51,16 @@ bool compressed(hid_t plan) {
     return false;
 }
 
-// Deflate makes no more of a byte.
-constexpr std::uint64_t most_compressed = 1032;
+// Deflate makes no more of a byte. Of motion it makes two or three; much memory is taken for no more than a hundred.
+constexpr std::uint64_t most_compressed = 1032, most_of_much = 100, much = std::uint64_t{1} << 30;
+
+constexpr int most_links = 16;  // one behind the other
+
+/// Where a link within the file leads, from the root.
+std::string target_of(const std::string& link, const std::string& to) {
+    const auto folder = link.find_last_of('/');
+    return to.starts_with('/') || folder == std::string::npos ? to : link.substr(0, folder + 1) + to;
+}
 
 }  // namespace
 
@@ -74,27 +83,33 @@ bool Reader::has(const std::string& name) const {
     return H5Lexists(file_.get(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
-/// The library follows none (see silence()); here they are named.
-void Reader::refuse_external_links(const std::string& name) const {
-    for (auto slash = name.find('/');; slash = name.find('/', slash + 1)) {
+/// The library follows no link into another file (see silence()); here they are named, also those that a link within the file leads to.
+void Reader::refuse_links_away(const std::string& name, int depth) const {
+    for (auto slash = name.find('/', 1);; slash = name.find('/', slash + 1)) {
         const auto part = name.substr(0, slash);
         H5L_info_t info{};
-        if (H5Lget_info(file_.get(), part.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5L_TYPE_EXTERNAL)
+        const bool known = H5Lget_info(file_.get(), part.c_str(), &info, H5P_DEFAULT) >= 0;
+        if (known && info.type >= H5L_TYPE_UD_MIN)
             fail("'{}' is a link into another file, which is not followed; copy the array into this one",
                  part);
+        if (known && info.type == H5L_TYPE_SOFT && depth < most_links && info.u.val_size <= bytes_) {
+            std::string to(info.u.val_size, '\0');
+            if (H5Lget_val(file_.get(), part.c_str(), to.data(), to.size(), H5P_DEFAULT) >= 0)
+                refuse_links_away(target_of(part, to.c_str()), depth + 1);
+        }
         if (slash == std::string::npos) return;
     }
 }
 
 bool Reader::is_array(const std::string& name) const {
-    refuse_external_links(name);
+    refuse_links_away(name);
     H5O_info_t info;
     return H5Oget_info_by_name(file_.get(), name.c_str(), &info, H5P_DEFAULT) >= 0 &&
            info.type == H5O_TYPE_DATASET;
 }
 
 Reader::Array Reader::open(const std::string& name) const {
-    refuse_external_links(name);
+    refuse_links_away(name);
     if (!has(name)) fail("holds no '{}'", name);
     Array array{name, Handle(H5Dopen2(file_.get(), name.c_str(), H5P_DEFAULT), H5Dclose), {}, {}, 0};
     if (!array.set) fail("'{}' is no array, or damaged", name);
@@ -132,7 +147,43 @@ void Reader::check_layout(Array& array) const {
     if (size == 0 || stored > bytes_ || product(numbers, size) > product(stored, growth))
         fail("'{}' is said to be {} of {} bytes, but {} bytes are stored: damaged, or never filled",
              array.name, fmt::join(array.shape, " x "), size, stored);
+    if (numbers * size > much && numbers * size > product(stored, most_of_much))
+        fail("'{}' would take {} MiB out of {} MiB; h5repack -f NONE first if that is right", array.name,
+             numbers * size >> 20, stored >> 20);
     array.numbers = numbers;
+    array.checked_chunk = checked_chunk_of(plan.get(), array.shape.size());
+}
+
+/// Whether the array is float32 in checked chunks of whole rows, as this program writes motions.
+bool Reader::has_checked_rows(const Array& array) {
+    const auto& chunk = array.checked_chunk;
+    return !chunk.empty() && H5Tequal(array.type.get(), H5T_IEEE_F32LE) > 0 &&
+           std::equal(chunk.begin() + 1, chunk.end(), array.shape.begin() + 1);
+}
+
+void Reader::read_checked_rows(const Array& array, std::uint64_t first, std::span<float> values) const {
+    const std::uint64_t rows = array.checked_chunk[0], numbers = product(array.checked_chunk),
+                        row = numbers / rows;
+    Shape at(array.shape.size(), 0);
+    for (auto place = first * row; !values.empty();) {
+        at[0] = place / numbers * rows;
+        if (array.chunk.empty() || array.chunk_at != at[0]) {
+            array.chunk.resize(numbers + 1);
+            if (!read_checked_chunk(array.set.get(), at, array.chunk)) {
+                array.chunk.clear();
+                fail(
+                    "'{}' is not what its checksum says from row {} on: damaged; see actformer inspect "
+                    "--verify",
+                    array.name, at[0]);
+            }
+            array.chunk_at = at[0];
+        }
+        const std::uint64_t from = place % numbers,
+                            count = std::min<std::uint64_t>(values.size(), numbers - from);
+        std::copy_n(array.chunk.begin() + static_cast<std::ptrdiff_t>(from), count, values.begin());
+        values = values.subspan(count);
+        place += count;
+    }
 }
 
 Shape Reader::shape(const std::string& name) const {
@@ -167,8 +218,12 @@ std::vector<float> Reader::read_rows(const std::string& name, std::uint64_t firs
     Shape start(extent.size(), 0);
     start[0] = first;
     extent[0] = count;
-    std::vector<float> values(product(extent));
+    auto values = room<float>(product(extent), name);
     if (values.empty()) return values;
+    if (has_checked_rows(array)) {
+        read_checked_rows(array, first, values);
+        return values;
+    }
     const Handle space(H5Dget_space(array.set.get()), H5Sclose);
     const Handle memory(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
     H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
@@ -182,7 +237,7 @@ std::vector<std::string> Reader::read_strings(const std::string& name) const {
     if (H5Tget_class(array.type.get()) != H5T_STRING) fail("'{}' holds no text", name);
     if (H5Tis_variable_str(array.type.get()) > 0) return read_variable_strings(array);
     const auto size = H5Tget_size(array.type.get());
-    std::vector<char> text(array.numbers * size);
+    auto text = room<char>(array.numbers * size, name);
     if (!text.empty() &&
         H5Dread(array.set.get(), array.type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0)
         fail("'{}' cannot be read: damaged", name);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,9 @@ namespace actformer::hdf5 {
 /// A file to read. Every member throws Error, naming the file, for what is missing, of another shape, or damaged. No more
 /// memory is taken than the file's size accounts for, and nothing outside the file is read: external links, external storage and
 /// virtual arrays are refused.
+///
+/// A file that ends in a checksum (see Writer) is read whole once and compared with it before HDF5 sees any of it; files without one,
+/// as other programs write them, are read as they are.
 class Reader {
   public:
     /// Throws Error that tells a file which another program writes from a damaged one.
@@ -39,12 +43,13 @@ class Reader {
     template <typename T>
     std::vector<T> read(const std::string& name) const {
         const auto array = open(name);
-        std::vector<T> values(array.numbers);
+        auto values = room<T>(array.numbers, name);
         read_into(array, type_of<T>(), values.data());
         return values;
     }
 
-    /// `count` entries along the first axis, from `first` on. The array stays open for the next call.
+    /// `count` entries along the first axis, from `first` on. The array stays open for the next call. Of an array in checksummed chunks
+    /// every chunk must be there, and be as it was written.
     std::vector<float> read_rows(const std::string& name, std::uint64_t first, std::uint64_t count) const;
 
     /// Of fixed or variable length; of variable length in one piece, as h5py writes them unless told otherwise.
@@ -65,6 +70,9 @@ class Reader {
     /// where a chunk's own checksum is wrong.
     std::string contents(const See& see = {}) const;
 
+    /// The same without the values of `array`, which are not read: only their type and shape count.
+    std::string metadata(const std::string& array) const;
+
   private:
     struct Attribute;
     struct Array {
@@ -72,21 +80,37 @@ class Reader {
         Handle set, type;
         Shape shape;
         std::size_t numbers = 0;  ///< or texts
+        Shape checked_chunk{};    ///< of an array in chunks with checksums; else empty
+        mutable std::vector<float>
+            chunk{};  ///< the one read last of them, for the next rows; where read_rows() reads them itself
+        mutable std::uint64_t chunk_at = 0;  ///< its first row
     };
+
+    /// Memory for `count` values of the array `name`.
+    template <typename T>
+    std::vector<T> room(std::uint64_t count, const std::string& name) const try {
+        return std::vector<T>(count);
+    } catch (const std::exception&) {
+        fail("'{}' takes {} MiB, and there is not so much memory; end other programs, or split the file",
+             name, ((count >> 10) * sizeof(T)) >> 10);
+    }
     template <typename... Args>
     [[noreturn]] void fail(fmt::format_string<Args...> text, Args&&... args) const {
         throw Error("{}: {}", path_, fmt::format(text, std::forward<Args>(args)...));
     }
 
     Array open(const std::string& name) const;
-    void refuse_external_links(const std::string& name) const;
+    void refuse_links_away(const std::string& name, int depth = 0) const;
     void check_layout(Array& array) const;
+    static bool has_checked_rows(const Array& array);
+    void read_checked_rows(const Array& array, std::uint64_t first, std::span<float> values) const;
     Attribute open_attribute(const std::string& name, const std::string& of, H5T_class_t kind,
                              const char* what) const;
     void read_attribute(const Attribute& attribute, hid_t as, void* to) const;
     void read_into(const Array& array, hid_t type, void* to) const;
     std::string bytes_at(std::uint64_t offset, std::uint64_t size) const;  ///< fewer where the file ends
     std::string checksum_of(const Array& array, const See& see) const;
+    std::string contents_but(const std::string& without, const See& see) const;
     std::vector<std::string> read_variable_strings(const Array& array) const;
 
     std::string path_;

@@ -6,6 +6,7 @@
 
 #include "base/checksum/checksum.hpp"
 #include "base/checksum/fletcher32.hpp"
+#include "base/checksum/own_checksum.hpp"
 #include "base/error.hpp"
 #include "base/hdf5/file_on_disk.hpp"
 
@@ -65,7 +66,21 @@ Writer::Writer(Writer&& other) noexcept = default;
 void Writer::finish() {
     const bool flushed = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0;
     need(file_.close() && flushed, "superblock");
+    add_checksum();
     aside_->commit();
+}
+
+/// Reads back what the library wrote, which went back and forth.
+void Writer::add_checksum() {
+    const auto size = aside_->size();
+    std::string piece(std::size_t{1} << 20, '\0');
+    Checksum sum;
+    for (std::uint64_t at = 0; at < size; at += piece.size()) {
+        piece.resize(std::min<std::uint64_t>(piece.size(), size - at));
+        aside_->read_at(at, piece.data(), piece.size());
+        sum.add(piece);
+    }
+    aside_->write_at(size, checksum_line_of(sum));
 }
 
 /// The disk's failure, where there was one, also where the library hid it; else what could not be `written`.
@@ -216,6 +231,11 @@ std::string_view Writer::image() {
         H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &memory) < 0 || H5Fget_filesize(file_.get(), &size) < 0)
         throw Error("HDF5: a file in memory cannot be read back; is there enough memory?");
     return {*static_cast<const char**>(memory), size};
+}
+
+std::string Writer::checked_image() {
+    const auto bytes = image();
+    return std::string(bytes) + checksum_line(bytes);
 }
 
 }  // namespace actformer::hdf5

@@ -16,7 +16,8 @@
 
 namespace actformer::hdf5 {
 
-/// A new file; the same calls give the same bytes.
+/// A new file; the same calls give the same bytes. On disk it ends in a line with the checksum of all bytes before, which Reader looks
+/// at and other programs pass over; they drop it when they change the file.
 class Writer {
   public:
     /// In memory, for image(): in its own, or in `memory` that is used again, by one file at a time.
@@ -57,8 +58,14 @@ class Writer {
     /// The checksum of all that was written so far, as Reader::contents() finds it. Not for what write_rows wrote.
     std::string contents() const { return contents_.checksum(); }
 
-    /// The bytes of a file in memory, which begin at a page; until it is written to again or goes.
+    /// The same without the values of `array`, as Reader::metadata() finds it.
+    std::string metadata(const std::string& array) const { return contents_.checksum(array); }
+
+    /// The bytes of a file in memory, which begin at a page; until it is written to again or goes. No checksum stands behind them.
     std::string_view image();
+
+    /// The bytes of a file in memory and the checksum behind them.
+    std::string checked_image();
 
     /// Closes a file on disk, which appears at its path. Throws Error where not all of it could be written.
     void finish();
@@ -72,6 +79,7 @@ class Writer {
     void write_from(const std::string& name, hid_t type, const Shape& shape, const void* values,
                     hsize_t rows_a_chunk);
     void need(bool written, const std::string& name) const;
+    void add_checksum();
     std::unique_ptr<Aside> aside_;        ///< of a file on disk
     std::unique_ptr<FileMemory> memory_;  ///< its own, of a file that is not on disk
     Contents contents_;

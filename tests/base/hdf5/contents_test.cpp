@@ -21,7 +21,7 @@ namespace {
 struct Contents : testing::Test {
     TempDir dir;
     std::filesystem::path path = dir / "file.h5";
-    std::string written;  ///< the writer's checksum
+    std::string written, metadata;  ///< the writer's checksums
 
     Contents() {
         std::vector<float> motion(1000 * 6);
@@ -41,6 +41,7 @@ struct Contents : testing::Test {
         writer.write<float>("nothing", {0, 5}, std::vector<float>{});
         write_file(path, std::string(writer.image()));
         written = writer.contents();
+        metadata = writer.metadata("motion");
     }
     std::string read() const { return hdf5::Reader(path).contents(); }
 
@@ -61,6 +62,25 @@ struct Contents : testing::Test {
 TEST_F(Contents, ReaderAndWriterAgree) {
     EXPECT_EQ(read(), written);
     EXPECT_EQ(hdf5::Reader(read_file(path), "in memory").contents(), written);
+}
+
+TEST_F(Contents, MetadataIsAllButTheValuesOfOneArray) {
+    EXPECT_EQ(hdf5::Reader(path).metadata("motion"), metadata);
+    EXPECT_NE(metadata, written);
+    EXPECT_EQ(hdf5::Reader(path).metadata("none"), written);
+    if (!has_h5py()) GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
+    ASSERT_TRUE(python("f['motion'][999, 1, 2] += 1"));
+    EXPECT_EQ(hdf5::Reader(path).metadata("motion"), metadata);
+    ASSERT_TRUE(python("f['clip/label'][1] = 4"));
+    EXPECT_NE(hdf5::Reader(path).metadata("motion"), metadata);
+}
+
+TEST_F(Contents, NumbersOfAnUnusualLayoutAreNotOurs) {
+    const hdf5::Handle odd(H5Tcopy(H5T_NATIVE_FLOAT), H5Tclose);
+    EXPECT_EQ(hdf5::name_of_type(odd.get()), "float32");
+    H5Tset_ebias(odd.get(), 126);  // the same bytes are twice the numbers
+    EXPECT_EQ(hdf5::name_of_type(odd.get()), "");
+    EXPECT_EQ(hdf5::name_of_type(H5T_STD_U64BE), "uint64be");
 }
 
 TEST_F(Contents, EveryByteOfEveryArrayIsShownInOrder) {

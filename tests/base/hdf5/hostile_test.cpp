@@ -8,6 +8,7 @@
 #include <cstring>
 #include <functional>
 
+#include "base/checksum/own_checksum.hpp"
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
@@ -29,9 +30,10 @@ std::string refusal(const std::function<void()>& act) {
     return "not refused";
 }
 
-/// Replaces every 8-byte number `from` in the file, such as an extent.
+/// Replaces every 8-byte number `from` in the file, such as an extent, and drops the checksum at its end.
 void replace_number(const fs::path& path, std::uint64_t from, std::uint64_t to) {
     auto bytes = read_file(path);
+    bytes.resize(bytes.size() - checksum_line({}).size());
     int found = 0;
     for (std::size_t at = 0; at + 8 <= bytes.size(); ++at)
         if (std::memcmp(&bytes[at], &from, 8) == 0) {
@@ -138,16 +140,72 @@ TEST_F(HostileFile, ExternalLinksAreRefusedByName) {
     const auto made = run_command("/usr/bin/python3 -c \"import h5py; f = h5py.File('" + other.string() +
                                   "', 'w'); f['motion'] = h5py.ExternalLink('" + path.string() +
                                   "', 'motion'); f['all'] = h5py.ExternalLink('" + path.string() +
-                                  "', '/'); f['round about'] = h5py.SoftLink('/all/motion')\"");
+                                  "', '/'); f['round about'] = h5py.SoftLink('/all/motion'); "
+                                  "f.create_group('group'); f['group/up'] = h5py.SoftLink('/motion'); "
+                                  "f['beside'] = h5py.SoftLink('group/up'); "
+                                  "f['in a circle'] = h5py.SoftLink('/in a circle')\"");
     if (made.exit != 0) GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
     const hdf5::Reader file(other);
-    EXPECT_EQ(file.names(), (std::vector<std::string>{"all", "motion", "round about"}));
+    EXPECT_EQ(file.names(),
+              (std::vector<std::string>{"all", "beside", "group", "in a circle", "motion", "round about"}));
     for (const auto* name : {"motion", "all/motion"}) {
         EXPECT_NE(refusal([&] { file.read<float>(name); }).find("link into another file"), std::string::npos);
         EXPECT_NE(refusal([&] { file.is_array(name); }).find("link into another file"), std::string::npos);
     }
-    EXPECT_NE(refusal([&] { file.read<float>("round about"); }), "not refused");
-    EXPECT_FALSE(file.is_array("round about"));
+    for (const auto* name : {"round about", "beside"}) {
+        EXPECT_NE(refusal([&] { file.read<float>(name); }).find("link into another file"), std::string::npos);
+        EXPECT_NE(refusal([&] { file.is_array(name); }).find("link into another file"), std::string::npos);
+    }
+    EXPECT_NE(refusal([&] { file.read<float>("in a circle"); }), "not refused");
+    EXPECT_FALSE(file.is_array("in a circle"));
+}
+
+TEST_F(HostileFile, AnArrayThatDeflatedToNextToNothingIsRefused) {
+    const hsize_t rows = hsize_t{1} << 29, chunk = rows / 4;
+    const hdf5::Handle plan(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_chunk(plan.get(), 1, &chunk);
+    H5Pset_deflate(plan.get(), 1);
+    create(plan.get(), {rows});
+    // Chunks that were never deflated: their sizes are all that is looked at.
+    {
+        const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+        const hdf5::Handle set(H5Dopen2(file.get(), "motion", H5P_DEFAULT), H5Dclose);
+        const std::vector<char> stored(1 << 20);
+        for (hsize_t at = 0; at < rows; at += chunk)
+            ASSERT_GE(H5Dwrite_chunk(set.get(), H5P_DEFAULT, 0, &at, stored.size(), stored.data()), 0);
+    }
+    const auto why = refusal_to_read();
+    EXPECT_NE(why.find("'motion' would take 2048 MiB out of 4 MiB"), std::string::npos) << why;
+    EXPECT_NE(why.find("h5repack"), std::string::npos) << why;
+}
+
+TEST_F(HostileFile, ACheckedChunkThatIsNotThereIsRefusedAndNotTakenForZeros) {
+    const hsize_t rows[] = {4241, 3}, chunk[] = {64, 3};
+    for (const unsigned left_out : {0U, 1U}) {
+        const hdf5::Handle plan(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+        H5Pset_chunk(plan.get(), 2, chunk);
+        H5Pset_fletcher32(plan.get());
+        create(plan.get(), {rows[0], rows[1]});
+        {
+            const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+            const hdf5::Handle set(H5Dopen2(file.get(), "motion", H5P_DEFAULT), H5Dclose);
+            const std::vector<float> values(64 * 3 + 1);  // zeros, and so is their checksum
+            for (hsize_t at[] = {0, 0}; at[0] < rows[0]; at[0] += 64) {
+                const bool odd = at[0] == 640;
+                if (odd && left_out == 0) continue;
+                ASSERT_GE(H5Dwrite_chunk(set.get(), H5P_DEFAULT, odd ? left_out : 0, at, values.size() * 4,
+                                         values.data()),
+                          0);
+            }
+        }
+        const hdf5::Reader file(path);
+        EXPECT_EQ(file.read_rows("motion", 600, 40).size(), 40U * 3);
+        EXPECT_EQ(file.read_rows("motion", 704, 40).size(), 40U * 3);
+        const auto why = refusal([&] { file.read_rows("motion", 639, 2); });
+        EXPECT_NE(why.find("file.h5: 'motion' is not what its checksum says from row 640 on"),
+                  std::string::npos)
+            << why;
+    }
 }
 
 TEST_F(HostileFile, TextsOfVariableLengthAreReadOnlyWhereTheyAre) {

@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "base/checksum/own_checksum.hpp"
 #include "base/error.hpp"
 #include "base/hdf5/writer.hpp"
 #include "ingest/dataset/dataset.hpp"
@@ -182,6 +183,7 @@ TEST(MotionsFile, RefusesALengthThatWrapsAround) {
     file.write<float>("A001_0", {3, 2, 4241}, std::vector<float>(3 * 2 * 4241));
     file.finish();
     auto bytes = read_file(path);
+    bytes.resize(bytes.size() - checksum_line({}).size());           // as another program writes it
     const std::uint64_t frames = 4241, wraps = 3074457345618258603;  // times 6 it is 2 modulo 2^64
     for (std::size_t at = 0; at + 8 <= bytes.size(); ++at)
         if (std::memcmp(&bytes[at], &frames, 8) == 0) std::memcpy(&bytes[at], &wraps, 8);

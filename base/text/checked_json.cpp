@@ -1,0 +1,33 @@
+#include "base/text/checked_json.hpp"
+
+#include "base/checksum/checksum.hpp"
+
+namespace actformer {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr auto key = "checksum";
+
+std::string checksum_of_members(const Json& object) {
+    const nlohmann::json sorted = object;
+    return checksum(sorted.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+Json with_checksum(Json object) {
+    object.erase(key);
+    auto sum = checksum_of_members(object);
+    object[key] = std::move(sum);
+    return object;
+}
+
+OwnChecksum own_checksum_of(const Json& object) {
+    if (!object.is_object() || !object.contains(key)) return OwnChecksum::absent;
+    auto others = object;
+    others.erase(key);
+    return object[key] == checksum_of_members(others) ? OwnChecksum::right : OwnChecksum::wrong;
+}
+
+}  // namespace actformer
