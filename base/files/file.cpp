@@ -11,12 +11,14 @@
 
 #include "base/error.hpp"
 #include "base/files/descriptor.hpp"
+#include "base/files/regular_file.hpp"
 
 namespace actformer {
 
 namespace fs = std::filesystem;
 
 std::string_view read_text(const fs::path& path, std::vector<char>& scratch, std::uint64_t limit) {
+    refuse_irregular(path);
     const Descriptor file(path, O_RDONLY);
     struct stat status {};
     if (file.get() < 0 || ::fstat(file.get(), &status) != 0)
@@ -32,6 +34,7 @@ std::string_view read_text(const fs::path& path, std::vector<char>& scratch, std
 }
 
 void read_in_pieces(const fs::path& path, const std::function<void(std::string_view)>& use) {
+    refuse_irregular(path);
     const Descriptor file(path, O_RDONLY);
     if (file.get() < 0) throw Error("{}: cannot be read: {}", path.string(), reason());
     std::vector<char> piece(std::size_t{1} << 20);

@@ -12,6 +12,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/regular_file.hpp"
 
 namespace actformer {
 namespace {
@@ -29,6 +30,7 @@ std::size_t whole_pages(std::size_t bytes) {
 
 // Zero bytes first, for the padding, and the file over their beginning: what the file leaves of its last page is zero too.
 MappedFile::MappedFile(const std::filesystem::path& path) {
+    refuse_irregular(path);
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     struct stat status {};
     if (file < 0 || ::fstat(file, &status) != 0) {

@@ -10,6 +10,8 @@ namespace actformer::loose {
 using Json = nlohmann::ordered_json;
 
 nlohmann::ordered_json read(const std::filesystem::path& path) {
+    if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
+        return Json(Json::value_t::discarded);
     std::ifstream file(path, std::ios::binary);
     const std::string text(std::istreambuf_iterator<char>(file), {});
     expect_shallow_json(text, path);

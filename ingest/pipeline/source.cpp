@@ -15,6 +15,7 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/regular_file.hpp"
 #include "base/text/html.hpp"
 #include "base/threads/parallel.hpp"
 
@@ -198,6 +199,7 @@ struct Found {
     bool archive = false;
     std::uint64_t bytes = 0;
     std::int64_t changed = 0;  ///< nanoseconds
+    std::string unreadable{};  ///< why; empty where nothing speaks against it
 };
 
 void add_files_below(const fs::path& folder, std::size_t given, const Extensions& extensions,
@@ -219,7 +221,10 @@ void look_at(std::vector<Found>& items) {
     parallel_for(items.size(), thread_count(0), [&](std::size_t i, unsigned) {
         struct stat status {};
         if (::stat(items[i].path.c_str(), &status) != 0) return;
-        if (S_ISREG(status.st_mode)) items[i].bytes = static_cast<std::uint64_t>(status.st_size);
+        if (S_ISREG(status.st_mode))
+            items[i].bytes = static_cast<std::uint64_t>(status.st_size);
+        else
+            items[i].unreadable = fmt::format("{}, and no regular file", irregular_kind(items[i].path));
         items[i].changed = std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
     });
 }
@@ -265,9 +270,10 @@ struct Source::State {
         for (; at < items.size(); ++at) {
             const auto& item = items[at];
             if (!item.archive) {
-                file = RawFile{
-                    item.path, stem_of(item.path, extensions), inside(item), files++, item.bytes, false, {},
-                    {}};
+                file = RawFile{item.path,    stem_of(item.path, extensions),
+                               inside(item), files++,
+                               item.bytes,   false,
+                               {},           item.unreadable};
                 passed += item.bytes;
                 ++at;
                 return true;
@@ -298,6 +304,7 @@ Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_v
         if (fs::is_directory(status)) {
             add_files_below(raw[i], i, state_->extensions, state_->items);
         } else {
+            refuse_irregular(raw[i]);
             const bool archive = extension_of(raw[i].string(), state_->extensions) == 0;
             if (archive)
                 const Archive opens(

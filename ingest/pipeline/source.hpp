@@ -27,7 +27,8 @@ struct RawFile {
     std::uint64_t size = 0;   ///< bytes of text
     bool in_memory = false;
     std::vector<char> bytes;  ///< in_memory: the text and 64 zero bytes after it
-    std::string unreadable;   ///< why it could not be read out of the archive; empty where it could
+    std::string
+        unreadable;  ///< why it cannot be read: a FIFO, or too large a member of an archive; else empty
     std::shared_ptr<const Scratch> unpacked{};  ///< of a large member of an archive: the folder with its text
 
     /// The text, in `scratch` or in `bytes`, followed by 64 zero bytes. Throws Error where the file cannot be read, or has more than

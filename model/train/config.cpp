@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/files/regular_file.hpp"
 #include "base/text/nearest_word.hpp"
 #include "base/text/printable.hpp"
 
@@ -129,6 +130,7 @@ std::string text_of(const Value& value) {
 }  // namespace
 
 std::string model_named_in(const std::filesystem::path& file) try {
+    refuse_irregular(file);
     const auto root = YAML::LoadFile(file.string());
     return root.IsMap() && root["model"] ? scalar(root["model"]) : "";
 } catch (const YAML::Exception&) {
@@ -164,6 +166,7 @@ const Value& Config::value(const std::string& name) const {
 }
 
 void Config::load(const std::filesystem::path& file) {
+    refuse_irregular(file);
     try {
         take(YAML::LoadFile(file.string()), file.string());
     } catch (const YAML::BadFile&) {

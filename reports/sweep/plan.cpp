@@ -32,6 +32,7 @@ double number_in(const Settings& set, const char* key, double otherwise) {
 
 /// What the configuration tells, unless `set` says it; else `otherwise`.
 double number_in(const Settings& set, const fs::path& config, const char* key, double otherwise) {
+    if (std::error_code ignored; !fs::is_regular_file(config, ignored)) return number_in(set, key, otherwise);
     try {
         otherwise = YAML::LoadFile(config.string())[key].as<double>(otherwise);
     } catch (const YAML::Exception&) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/files/regular_file.hpp"
 #include "ingest/formats/formats.hpp"
 #include "reports/tables/paper_tables.hpp"
 #include "reports/tables/yaml_place.hpp"
@@ -243,6 +244,7 @@ void check_references(const Place& place, const Node& root, const Sweep& sweep) 
 }
 
 Node load(const std::filesystem::path& file) {
+    refuse_irregular(file);
     try {
         return YAML::LoadFile(file.string());
     } catch (const YAML::BadFile&) {

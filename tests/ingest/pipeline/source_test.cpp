@@ -1,6 +1,10 @@
 #include "ingest/pipeline/source.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include "base/error.hpp"
 #include "tests/support/command.hpp"
@@ -53,6 +57,32 @@ struct Files : testing::Test {
 
 TEST_F(Files, ComeOutOfNestedFoldersInOrder) {
     EXPECT_EQ(contents({dir / "raw"}), expected);
+}
+
+TEST_F(Files, WhatIsNoRegularFileIsSkippedByName) {
+    ASSERT_EQ(::mkfifo((dir / "raw/b/pipe.skeleton").c_str(), 0600), 0);
+    fs::create_symlink(dir / "raw/b/pipe.skeleton", dir / "raw/b/link.skeleton");
+    const int socket = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    sockaddr_un address{AF_UNIX, {}};
+    const auto place = (dir / "raw/s.skeleton").string();
+    place.copy(address.sun_path, sizeof address.sun_path - 1);
+    ASSERT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    ::close(socket);
+    Source source({dir / "raw"}, {".skeleton"});
+    TextMemory memory(1 << 20);
+    std::map<std::string, std::string> said;
+    for (RawFile file; source.next(file);) try {
+            memory.read(file);
+        } catch (const actformer::Error& e) {
+            said[file.stem] = e.what();
+        }
+    EXPECT_EQ(said, (std::map<std::string, std::string>{
+                        {"link", (dir / "raw/b/link.skeleton").string() + ": a FIFO, and no regular file"},
+                        {"pipe", (dir / "raw/b/pipe.skeleton").string() + ": a FIFO, and no regular file"},
+                        {"s", place + ": a socket, and no regular file"}}));
+    EXPECT_EQ(message({dir / "raw/b/pipe.skeleton"}),
+              (dir / "raw/b/pipe.skeleton").string() + ": a FIFO, where a regular file is expected");
+    EXPECT_EQ(message({"/dev/null"}), "/dev/null: a device, where a regular file is expected");
 }
 
 TEST_F(Files, ComeOutOfArchives) {
