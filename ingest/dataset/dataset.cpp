@@ -65,7 +65,7 @@ std::string fault_of(const fs::path& path, const ShardEntry& entry, const Datase
             return fmt::format(
                 "{}: the checksum of its contents differs from dataset.json's: changed or damaged",
                 path.string());
-        const auto clips = read_clips(path, header, 0);
+        const auto clips = read_clips(path, header, 0, entry.metadata);
         if (finite.first_odd())
             return fmt::format("{}: clip {} holds numbers that are not finite", path.string(),
                                name_at(clips, *finite.first_odd() / header.frame_values()));
@@ -86,7 +86,7 @@ Dataset::Dataset(const fs::path& folder) : folder_(folder) {
     shards_ = std::move(file.shards);
     remarks_ = std::move(file.remarks);
     for (std::uint32_t shard = 0; shard < shards_.size(); ++shard) {
-        auto clips = read_clips(folder / shards_[shard].file, header_, shard);
+        auto clips = read_clips(folder / shards_[shard].file, header_, shard, shards_[shard].metadata);
         if (clips.size() != shards_[shard].clips)
             throw Error("{}: {} clips, not {} as dataset.json says; ingest the raw data again",
                         (folder / shards_[shard].file).string(), clips.size(), shards_[shard].clips);

@@ -54,9 +54,11 @@ struct ShardEntry {
     std::string checksum;  ///< of its contents (hdf5::Contents)
     std::uint64_t bytes = 0, clips = 0, frames = 0;
     bool checksum_of_bytes = false;  ///< format 1: of the file as it was written
+    std::string metadata{};          ///< the checksum of all but the motion; empty before format 3
 };
 
-/// Calls may come from one thread at a time.
+/// What is read is compared with its checksums: dataset.json and the metadata at once, a motion's chunks when it is asked for. Calls may
+/// come from one thread at a time.
 class Dataset {
   public:
     /// Reads dataset.json and the clips' metadata. Throws Error naming the file, what is wrong and the remedy.

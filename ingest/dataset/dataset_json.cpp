@@ -6,7 +6,9 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/text/checked_json.hpp"
 #include "base/text/json.hpp"
+#include "base/text/printable.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -78,6 +80,12 @@ DatasetFile from_json(const Json& json, const std::string& where) {
         throw Error(
             "{}: format {}, but this program reads formats 1 to {}; use the version it was written with ({})",
             where, format, dataset_format, json.value("program", "unknown"));
+    if (own_checksum_of(json) == OwnChecksum::wrong)
+        throw Error(
+            "{}: damaged: its checksum is of other contents; copy it again, or ingest the raw data again. If "
+            "you edited "
+            "it, take out its member \"checksum\"",
+            where);
     DatasetFile file;
     auto& header = file.header;
     header.name = json.at("name").get<std::string>();
@@ -113,11 +121,13 @@ Json to_json(const DataOrigin& origin) {
 }
 
 Json to_json(const ShardEntry& shard) {
-    return {{"file", shard.file},
-            {shard.checksum_of_bytes ? "checksum" : "contents", shard.checksum},
-            {"bytes", shard.bytes},
-            {"clips", shard.clips},
-            {"frames", shard.frames}};
+    Json json{{"file", shard.file},
+              {shard.checksum_of_bytes ? "checksum" : "contents", shard.checksum},
+              {"bytes", shard.bytes},
+              {"clips", shard.clips},
+              {"frames", shard.frames}};
+    if (!shard.metadata.empty()) json["metadata"] = shard.metadata;
+    return json;
 }
 
 ShardEntry shard_from_json(const nlohmann::json& json) {
@@ -127,7 +137,8 @@ ShardEntry shard_from_json(const nlohmann::json& json) {
             json.at("bytes").get<std::uint64_t>(),
             json.at("clips").get<std::uint64_t>(),
             json.at("frames").get<std::uint64_t>(),
-            of_bytes};
+            of_bytes,
+            json.value("metadata", "")};
 }
 
 std::string to_text(const DatasetFile& file) {
@@ -158,7 +169,7 @@ std::string to_text(const DatasetFile& file) {
     if (header.origin != DataOrigin{}) json["origin"] = to_json(header.origin);
     if (header.centre_windows) json["centre"] = "window";
     if (!file.remarks.empty()) json["remarks"] = file.remarks;
-    return json.dump(1) + "\n";
+    return with_checksum(std::move(json)).dump(1) + "\n";
 }
 
 DatasetFile read_dataset_json(const std::filesystem::path& path) {
@@ -168,7 +179,7 @@ DatasetFile read_dataset_json(const std::filesystem::path& path) {
     try {
         return from_json(Json::parse(text), path.string());
     } catch (const Json::exception& e) {
-        throw Error("{}: damaged: {}; ingest the raw data again", path.string(), e.what());
+        throw Error("{}: damaged: {}; ingest the raw data again", path.string(), printable(e.what()));
     }
 }
 

@@ -10,8 +10,9 @@
 
 namespace actformer::ingest {
 
-/// Format 1 differs in its shards' checksums, which are of the files' bytes: under "checksum" in place of "contents".
-constexpr int dataset_format = 2;
+/// Format 1 differs in its shards' checksums, which are of the files' bytes: under "checksum" in place of "contents". From format 3 on
+/// dataset.json has a checksum of its own, and one of every shard's metadata.
+constexpr int dataset_format = 3;
 
 /// Everything dataset.json holds.
 struct DatasetFile {
@@ -24,7 +25,7 @@ struct DatasetFile {
 
 std::string to_text(const DatasetFile& file);
 
-/// Throws Error naming `path` and the key at fault.
+/// Throws Error naming `path` and the key at fault, or where its checksum is wrong. Whoever edits it leaves the checksum out.
 DatasetFile read_dataset_json(const std::filesystem::path& path);
 
 /// {"data": .., "skeleton": ..}; what is not told is left out.

@@ -10,6 +10,8 @@ namespace {
 // About 80 kB a chunk for one person of 25 joints: small enough to draw a window from, large enough to stream.
 constexpr hsize_t frames_a_chunk = 256;
 
+constexpr auto motion_array = "motion";
+
 template <typename T, typename Of>
 std::vector<T> column(const std::vector<Clip>& clips, Of of) {
     std::vector<T> out;
@@ -49,7 +51,7 @@ ShardImage ShardBuilder::image(hdf5::FileMemory& memory, const std::string& sett
     file.attribute("dataset", header_->name);
     file.attribute("settings", settings);
     file.attribute("source", fingerprint);
-    file.write_pieces("motion", {frames_, p, header_->nodes(), header_->representation.numbers()}, motion,
+    file.write_pieces(motion_array, {frames_, p, header_->nodes(), header_->representation.numbers()}, motion,
                       frames_a_chunk);
     pieces_.clear();
     file.write<std::uint64_t>("clip/offset", {n},
@@ -64,14 +66,20 @@ ShardImage ShardBuilder::image(hdf5::FileMemory& memory, const std::string& sett
                            column<std::string>(clips_, [f](auto& c) { return c.fields[f]; }));
     file.write<float>("clip/bone_length", {n, p, joints}, bones);
     const auto bytes = file.image();
-    auto contents = file.contents();
-    return {std::move(file), bytes, std::move(contents)};
+    auto contents = file.contents(), metadata = file.metadata(motion_array);
+    return {std::move(file), bytes, std::move(contents), std::move(metadata)};
 }
 
 std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHeader& header,
-                             std::uint32_t shard) {
+                             std::uint32_t shard, const std::string& metadata) {
     const hdf5::Reader file(path);
-    const auto motion = file.shape("motion");
+    if (!metadata.empty() && file.metadata(motion_array) != metadata)
+        throw Error(
+            "{}: the names, labels or other metadata of its clips are not those that dataset.json has the "
+            "checksum of: "
+            "changed or damaged; copy it again, or ingest the raw data again",
+            path.string());
+    const auto motion = file.shape(motion_array);
     const auto numbers = header.representation.numbers();
     if (motion.size() != 4 || motion[1] != header.persons || motion[2] != header.nodes() ||
         motion[3] != numbers)

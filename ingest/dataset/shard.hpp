@@ -7,6 +7,8 @@
 //   clip/name          (clips)           string
 //   clip/FIELD         (clips)           string    metadata for the splits, as in clip/performer
 //   clip/bone_length   (clips, P, joints) float32  metres, 0 for the root
+//
+// The file's checksums stand in dataset.json.
 #pragma once
 
 #include <filesystem>
@@ -25,6 +27,7 @@ struct ShardImage {
     hdf5::Writer file;
     std::string_view bytes;  ///< of the file
     std::string contents;    ///< their checksum
+    std::string metadata;    ///< that of all but the motion
 };
 
 /// Gathers clips in memory and becomes a file in one go.
@@ -51,9 +54,10 @@ class ShardBuilder {
     std::uint64_t frames_ = 0;
 };
 
-/// Metadata of every clip in the shard, `shard` being its number. Throws Error for a damaged or foreign file.
+/// Metadata of every clip in the shard, `shard` being its number. `metadata`: the checksum that it must have; empty where that is not
+/// known. Throws Error for a damaged or foreign file.
 std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHeader& header,
-                             std::uint32_t shard);
+                             std::uint32_t shard, const std::string& metadata = {});
 
 /// "shard-00012.h5"
 std::string shard_name(std::size_t number);

@@ -44,6 +44,7 @@ std::vector<std::string> drop_empty_classes(DatasetFile& file, const std::set<st
         const auto checksum = hdf5::Reader(path).contents();
         if (checksum == shard.checksum) write_whole(path, renumber(path, renumbered, scratch), Sync::later);
         shard.checksum = checksum == shard.checksum ? hdf5::Reader(path).contents() : checksum;
+        shard.metadata = hdf5::Reader(path).metadata("motion");
     }
     file.header.classes = std::move(kept);
     return dropped;

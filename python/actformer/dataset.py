@@ -13,7 +13,7 @@ from .errors import Error, suggestion
 from .files import AnyPath, open_hdf5, read_json, texts
 
 #: Versions of dataset.json that this package reads.
-FORMATS = (1, 2)
+FORMATS = (1, 2, 3)
 
 
 @dataclass(frozen=True)
@@ -192,7 +192,7 @@ def _header(folder: Path) -> Dict[str, Any]:
     header = read_json(path, "a folder that actformer ingest made")
     version = header.get("format") if isinstance(header, dict) else None
     if version not in FORMATS:
-        raise Error(f"{path}: format {version}, but this package reads formats 1 and 2; take the package of the "
+        raise Error(f"{path}: format {version}, but this package reads formats 1 to 3; take the package of the "
                     "program's version")
     return dict(header)
 

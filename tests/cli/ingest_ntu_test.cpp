@@ -404,8 +404,10 @@ TEST_F(IngestNtu, ReadsAndVerifiesDatasetsOfFormat1) {
     ASSERT_EQ(ingest().exit, 0);
     const auto path = dir / "out/ntu-1p/dataset.json", shard = dir / "out/ntu-1p/shard-00000.h5";
     auto json = nlohmann::json::parse(read_file(path));
-    EXPECT_EQ(json["format"], 2);
+    EXPECT_EQ(json["format"], 3);
     json["format"] = 1;  // as it was: the checksum of the file's bytes
+    json.erase("checksum");
+    json["shards"][0].erase("metadata");
     json["shards"][0].erase("contents");
     json["shards"][0]["checksum"] = actformer::checksum_file(shard);
     write_file(path, json.dump());
@@ -416,9 +418,9 @@ TEST_F(IngestNtu, ReadsAndVerifiesDatasetsOfFormat1) {
     bytes[bytes.size() / 2] ^= 1;
     write_file(shard, bytes);
     EXPECT_EQ(run_actformer("inspect --verify " + out()).exit, 1);
-    json["format"] = 3;
+    json["format"] = 4;
     write_file(path, json.dump());
-    EXPECT_NE(run_actformer("inspect " + out()).output.find("formats 1 to 2"), std::string::npos);
+    EXPECT_NE(run_actformer("inspect " + out()).output.find("formats 1 to 3"), std::string::npos);
 }
 
 namespace {
@@ -573,6 +575,10 @@ TEST_F(IngestNtu, WhatWasDoubtfulStaysWithTheDatasetItIsOf) {
     const auto path = dir / "out/ntu-1p/dataset.json";
     auto json = nlohmann::json::parse(read_file(path));
     json.erase("remarks");
+    write_file(path, json.dump());
+    EXPECT_NE(run_actformer("inspect " + out()).output.find("take out its member \"checksum\""),
+              std::string::npos);
+    json.erase("checksum");
     write_file(path, json.dump());
     EXPECT_TRUE(Dataset(dir / "out/ntu-1p").remarks().empty()) << "as datasets of old have none";
 }

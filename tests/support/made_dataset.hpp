@@ -44,6 +44,7 @@ inline void write_dataset(const std::filesystem::path& folder, const ingest::Dat
     const auto image = shard.image(memory, "made by a test", "none");
     write_whole(folder / entry.file, image.bytes);
     entry.checksum = image.contents;
+    entry.metadata = image.metadata;
     entry.bytes = image.bytes.size();
     write_whole(folder / "dataset.json", ingest::to_text({header, "made by a test", "none", {entry}, {}}));
 }

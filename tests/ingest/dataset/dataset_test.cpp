@@ -22,6 +22,7 @@ std::string error_after(Representation how, const std::function<void(nlohmann::j
     std::filesystem::copy(arms_in(how), dir / "data");
     auto json = nlohmann::json::parse(read_file(dir / "data/dataset.json"));
     change(json);
+    json.erase("checksum");
     write_file(dir / "data/dataset.json", json.dump());
     try {
         const Dataset dataset(dir / "data");
