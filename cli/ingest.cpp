@@ -33,6 +33,7 @@ void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
     if (s.was_complete) {
         say("{} is complete already: nothing to do\n", options.out);
     } else {
+        for (const auto& line : s.made_again) say("{}\n", line);
         if (s.resumed_files) say("went on behind {}\n", counted(s.resumed_files, "finished file"));
         say("read {} ({}) in {}\n", counted(s.files, "file"), bytes(s.text_bytes), duration(s.seconds.wall));
     }
@@ -50,8 +51,9 @@ void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
 void print_json(const ingest::IngestSummary& s, const IngestOptions& options) {
     nlohmann::ordered_json json{{"out", options.out},         {"complete_before", s.was_complete},
                                 {"files", s.files},           {"resumed_files", s.resumed_files},
-                                {"text_bytes", s.text_bytes}, {"left_out", s.left_out},
-                                {"remarks", s.remarks},       {"seconds", s.seconds.wall}};
+                                {"made_again", s.made_again}, {"text_bytes", s.text_bytes},
+                                {"left_out", s.left_out},     {"remarks", s.remarks},
+                                {"seconds", s.seconds.wall}};
     json["doubts"] = nlohmann::ordered_json::array();
     for (const auto& d : s.doubts)
         json["doubts"].push_back({{"what", d.what}, {"clips", d.clips}, {"first", d.first}});

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <set>
 
+#include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/json.hpp"
@@ -21,7 +22,8 @@ Json to_json(const Tranche& tranche) {
     for (const auto& one : tranche.left_out)
         left_out.push_back({one.path, static_cast<int>(one.rejection.kind), one.rejection.reason});
     for (const auto& [dataset, shard] : tranche.shards)
-        shards.push_back({{"dataset", dataset}, {"shard", ingest::to_json(shard)}});
+        shards.push_back(
+            {{"dataset", dataset}, {"shard", ingest::to_json(shard.entry)}, {"bytes", shard.checksum}});
     return {{"files", tranche.files},
             {"text_bytes", tranche.text_bytes},
             {"fingerprint", tranche.fingerprint},
@@ -41,13 +43,14 @@ Tranche tranche_from(const Json& json) {
         tranche.left_out.push_back(
             {one.at(0), {static_cast<Rejection::Kind>(one.at(1).get<int>()), one.at(2)}});
     for (const auto& one : json.at("shards"))
-        tranche.shards.emplace_back(one.at("dataset").get<std::size_t>(), shard_from_json(one.at("shard")));
+        tranche.shards.push_back({one.at("dataset").get<std::size_t>(),
+                                  {shard_from_json(one.at("shard")), one.at("bytes").get<std::string>()}});
     return tranche;
 }
 
 /// Text with bytes that are no UTF-8 (file names may hold any) replaced, so that every line can be read back.
-std::string line_of(const Json& json) {
-    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+std::string text_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -62,28 +65,64 @@ Workplace::Workplace(fs::path folder, const std::string& request) : folder_(std:
     load(request);
 }
 
+/// The text as a line behind those so far, whose checksum it begins with.
+std::string Workplace::line_for(const std::string& text) {
+    sum_ = checksum(sum_ + text);
+    return sum_ + " " + text + "\n";
+}
+
 void Workplace::load(const std::string& request) {
-    std::ifstream journal(folder_ / "journal");
-    std::string line;
-    if (!std::getline(journal, line) || line != request || journal.eof()) return start_afresh(request);
-    std::string whole = line + "\n";
-    std::set<fs::path> known;
-    bool all_there = true;
-    while (std::getline(journal, line) &&
-           !journal.eof()) {  // a line without its end was cut short by the kill
-        const auto json = json_or_discarded<Json>(line);
-        if (json.is_discarded()) break;
-        finished_.push_back(tranche_from(json));
+    std::ifstream journal(folder_ / "journal", std::ios::binary);
+    std::string line, whole = line_for(request);
+    if (!std::getline(journal, line) || journal.eof()) return start_afresh(request);
+    if (line + "\n" != whole) {
+        notes_.push_back(fmt::format("{}: damaged, or of other settings or raw files; all is read again",
+                                     (folder_ / "journal").string()));
+        return start_afresh(request);
+    }
+    for (std::size_t number = 2; std::getline(journal, line) && !journal.eof(); ++number) {
+        if (!take_line(line, number)) break;  // a line without its end was cut short by the kill
         whole += line + "\n";
-        for (const auto& [dataset, shard] : finished_.back().shards) {
-            std::error_code missing;
-            all_there = all_there && fs::file_size(data() / shard.file, missing) == shard.bytes;
-            known.insert(data() / shard.file);
-        }
     }
     journal.close();
-    if (!all_there) return start_afresh(request);
     fs::resize_file(folder_ / "journal", whole.size());
+    remove_unfinished();
+}
+
+/// False, and a note, where the line or one of its shards is not as it was written.
+bool Workplace::take_line(const std::string& line, std::size_t number) {
+    const auto before = sum_;
+    const auto space = line.find(' ');
+    const auto text = space == std::string::npos ? std::string() : line.substr(space + 1);
+    std::string fault;
+    if (line_for(text) != line + "\n") {
+        fault = fmt::format("{}:{}: damaged", (folder_ / "journal").string(), number);
+    } else {
+        auto tranche = tranche_from(Json::parse(text));
+        fault = fault_of(tranche);
+        if (fault.empty()) finished_.push_back(std::move(tranche));
+    }
+    if (fault.empty()) return true;
+    sum_ = before;
+    notes_.push_back(fault + "; what was done from there on is made again");
+    return false;
+}
+
+std::string Workplace::fault_of(const Tranche& tranche) const {
+    for (const auto& [dataset, shard] : tranche.shards) {
+        const auto path = data() / shard.entry.file;
+        if (std::error_code missing; fs::file_size(path, missing) != shard.entry.bytes || missing)
+            return fmt::format("{}: missing, or of another size", path.string());
+        if (checksum_file(path) != shard.checksum)
+            return fmt::format("{}: changed since it was written", path.string());
+    }
+    return {};
+}
+
+void Workplace::remove_unfinished() const {
+    std::set<fs::path> known;
+    for (const auto& tranche : finished_)
+        for (const auto& [dataset, shard] : tranche.shards) known.insert(data() / shard.entry.file);
     std::vector<fs::path> unfinished;
     if (fs::exists(data()))
         for (const auto& entry : fs::recursive_directory_iterator(data()))
@@ -93,14 +132,15 @@ void Workplace::load(const std::string& request) {
 
 void Workplace::start_afresh(const std::string& request) {
     finished_.clear();
+    sum_.clear();
     fs::remove(folder_ / "journal");
     fs::remove_all(data());
     make_folders(data());
-    append(folder_ / "journal", request + "\n");
+    append(folder_ / "journal", line_for(request));
 }
 
 void Workplace::finish(Tranche tranche) {
-    append(folder_ / "journal", line_of(to_json(tranche)));
+    append(folder_ / "journal", line_for(text_of(to_json(tranche))));
     finished_.push_back(std::move(tranche));
 }
 

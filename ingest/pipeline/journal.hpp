@@ -1,5 +1,6 @@
-// What an ingest has finished so far: OUT.partial/journal, a JSON line a tranche. A run that was killed goes on behind its last
-// whole line.
+// What an ingest has finished so far: OUT.partial/journal. Its first line is the request, then comes a line of JSON for every tranche. Each
+// line begins with the checksum of itself and of all lines before it, and tells the checksums of the shards' bytes. A run
+// that was killed goes on behind the last line that is right and whose shards are.
 #pragma once
 
 #include <filesystem>
@@ -27,15 +28,20 @@ struct Doubtful {
     std::string doubt, clip;
 };
 
+/// A shard in the working folder.
+struct KeptShard {
+    ShardEntry entry;      ///< with its path below Workplace::data()
+    std::string checksum;  ///< of its bytes
+};
+
 /// What became of one tranche of raw files.
 struct Tranche {
     std::uint64_t files = 0, text_bytes = 0;
     std::string fingerprint;  ///< of all raw text up to its end
     std::vector<LeftOut> left_out;
     std::vector<Doubtful> doubts;
-    std::vector<std::pair<std::size_t, ShardEntry>>
-        shards;                      ///< dataset number, shard with its path below data()
-    std::vector<std::string> names;  ///< of the clips kept
+    std::vector<std::pair<std::size_t, KeptShard>> shards;  ///< dataset number, shard
+    std::vector<std::string> names;                         ///< of the clips kept
     std::set<std::pair<std::size_t, std::uint32_t>>
         labels;  ///< dataset number, label: those that clips kept have
 };
@@ -43,11 +49,14 @@ struct Tranche {
 /// The working folder, as workplace_of() tells it, held by one process at a time.
 class Workplace {
   public:
-    /// Opens or makes `folder`. Work that an earlier run left for another `request` (settings and raw files) is thrown away.
-    /// Throws Error where another process holds it.
+    /// Opens or makes `folder`. Work that an earlier run left for another `request` (settings and raw files) is thrown away, and
+    /// what is no longer as it was written. Throws Error where another process holds it.
     Workplace(std::filesystem::path folder, const std::string& request);
 
     const std::vector<Tranche>& finished() const { return finished_; }
+
+    /// What was thrown away of an earlier run's work, and why; a line each.
+    const std::vector<std::string>& notes() const { return notes_; }
     std::filesystem::path data() const { return folder_ / "data"; }
 
     /// The shards of `tranche` are in place: note it down.
@@ -61,11 +70,17 @@ class Workplace {
 
   private:
     void load(const std::string& request);
+    bool take_line(const std::string& line, std::size_t number);
+    std::string fault_of(const Tranche& tranche) const;
+    void remove_unfinished() const;
     void start_afresh(const std::string& request);
+    std::string line_for(const std::string& text);
 
     std::filesystem::path folder_;
     std::optional<FileLock> lock_;
     std::vector<Tranche> finished_;
+    std::vector<std::string> notes_;
+    std::string sum_;  ///< of the journal's lines so far
 };
 
 }  // namespace actformer::ingest

@@ -76,6 +76,7 @@ class Ingest {
         }
         const SafePoints safe_points;
         Workplace workplace(aside, wanted);
+        summary_.made_again = workplace.notes();
         try {
             go_on_from(workplace, source);
             read_everything(workplace, source, safe_points);
@@ -331,16 +332,17 @@ class Ingest {
         });
     }
 
-    ShardEntry write(const Workplace& workplace, std::size_t dataset, ShardBuilder& shard,
-                     const std::string& fingerprint) {
+    KeptShard write(const Workplace& workplace, std::size_t dataset, ShardBuilder& shard,
+                    const std::string& fingerprint) {
         const auto file = folder_of(dataset) / shard_name(shard_count_[dataset]++);
         ShardEntry entry{file.string(), {}, 0, shard.clips(), shard.frames()};
         make_folders((workplace.data() / file).parent_path());
         const auto image = shard.image(shard_memory_, format_.settings(), fingerprint);
         write_whole(workplace.data() / file, image.bytes, Sync::later);
         entry.checksum = image.contents;
+        entry.metadata = image.metadata;
         entry.bytes = image.bytes.size();
-        return entry;
+        return {std::move(entry), checksum(image.bytes)};
     }
 
     /// What stands beside the shards, and the move to OUT.
@@ -349,9 +351,15 @@ class Ingest {
         add_up(tranches, summary_);
         if (clips_done_ == 0) {
             workplace.discard();
-            throw Error("none of {} files gave a clip{}{}", summary_.files,
-                        summary_.first_rejections.empty() ? "" : "; the first: ",
-                        summary_.first_rejections.empty() ? "" : summary_.first_rejections[0]);
+            const auto raw = summary_.files == 0
+                                 ? fmt::format("{}: no {} file in it", request_.raw[0].string(),
+                                               fmt::join(format_.extensions(), ", "))
+                                 : fmt::format("{}: none of {} files gave a clip", request_.raw[0].string(),
+                                               summary_.files);
+            throw Error(
+                "{}{}{}", raw,
+                summary_.first_rejections.empty() ? "; is it the raw data of this format?" : "; the first: ",
+                summary_.first_rejections.empty() ? "" : summary_.first_rejections[0]);
         }
         summary_.remarks = format_.remarks();
         for (std::size_t d = 0; d < format_.datasets().size(); ++d) {
@@ -392,10 +400,10 @@ class Ingest {
         DatasetFile file{format_.datasets()[dataset], format_.settings(), fingerprint_, {}, {}};
         if (origin_) file.header.origin.kind = origin_;
         for (const auto& tranche : tranches)
-            for (auto [owner, shard] : tranche.shards) {
+            for (const auto& [owner, shard] : tranche.shards) {
                 if (owner != dataset) continue;
-                shard.file = fs::path(shard.file).filename();
-                file.shards.push_back(std::move(shard));
+                file.shards.push_back(shard.entry);
+                file.shards.back().file = fs::path(shard.entry.file).filename();
             }
         return file;
     }
@@ -408,9 +416,9 @@ class Ingest {
     IngestSummary summary_;
     std::vector<std::vector<std::unique_ptr<RawClip>>> pending_;  ///< (datasets) parsed and not yet cleaned
     std::size_t pending_bytes_ = 0;
-    std::vector<ShardBuilder> shards_;                         ///< (datasets) in the making
-    std::vector<std::size_t> shard_count_;                     ///< (datasets) shards written so far
-    std::vector<std::pair<std::size_t, ShardEntry>> written_;  ///< of the tranche in hand; the writer's own
+    std::vector<ShardBuilder> shards_;                        ///< (datasets) in the making
+    std::vector<std::size_t> shard_count_;                    ///< (datasets) shards written so far
+    std::vector<std::pair<std::size_t, KeptShard>> written_;  ///< of the tranche in hand; the writer's own
     hdf5::FileMemory shard_memory_;  ///< of the shard that is written; the writer's own
     Tranche tranche_;
     std::string group_files_;  ///< names and checksums of the group in hand

@@ -52,6 +52,8 @@ struct IngestSummary {
     std::vector<Doubt> doubts;        ///< of all datasets
     bool was_complete = false;        ///< OUT had been finished by an earlier run of the same request
     std::uint64_t resumed_files = 0;  ///< taken over from an interrupted run
+    std::vector<std::string>
+        made_again;  ///< of an interrupted run, what was not as it was written; a line each
 
     /// Core-seconds a stage took, of this run: where the time goes. Stages overlap, so they add up to more than `wall`.
     struct Seconds {

@@ -4,8 +4,10 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/text/checked_json.hpp"
 #include "base/text/csv.hpp"
 #include "base/text/json.hpp"
+#include "base/text/printable.hpp"
 
 namespace actformer::ingest {
 namespace fs = std::filesystem;
@@ -19,6 +21,21 @@ void add_doubt(const Doubtful& one, std::vector<IngestSummary::Doubt>& doubts) {
     if (found == doubts.end()) found = doubts.insert(found, {one.doubt, 0, {}});
     ++found->clips;
     if (found->first.size() < shown) found->first.push_back(one.clip);
+}
+
+void take_summary(const nlohmann::ordered_json& json, const fs::path& out, IngestSummary& summary) {
+    summary.was_complete = true;
+    summary.files = json.at("files");
+    summary.text_bytes = json.at("text_bytes");
+    summary.left_out = json.at("left_out").get<std::map<std::string, std::uint64_t>>();
+    summary.first_rejections = json.at("first_rejections").get<std::vector<std::string>>();
+    summary.remarks = json.at("remarks").get<std::vector<std::string>>();
+    for (const auto& d : json.at("doubts"))
+        summary.doubts.push_back({d.at("what"), d.at("clips"), d.at("first")});
+    for (const auto& d : json.at("datasets"))
+        summary.datasets.push_back({(out / d.at("folder").get<std::string>()).lexically_normal().string(),
+                                    d.at("clips"), d.at("frames"), d.at("bytes"), d.at("shards"),
+                                    d.at("classes")});
 }
 
 }  // namespace
@@ -104,28 +121,26 @@ std::string record_text(const Origin& origin, const fs::path& out, const IngestS
              {"bytes", d.bytes},
              {"shards", d.shards},
              {"classes", d.classes}});
-    return json.dump(1) + "\n";
+    return with_checksum(std::move(json)).dump(1) + "\n";
 }
 
 bool read_record(const fs::path& out, const std::string& request, IngestSummary& summary) {
     const auto path = out / "ingest.json";
     if (!fs::exists(path)) return false;
     std::vector<char> scratch;
-    const auto json = json_or_discarded<nlohmann::json>(read_text(path, scratch, std::uint64_t{1} << 26));
-    if (json.is_discarded() || !json.is_object() || json.value("request", "") != request) return false;
-    summary.was_complete = true;
-    summary.files = json.at("files");
-    summary.text_bytes = json.at("text_bytes");
-    summary.left_out = json.at("left_out").get<std::map<std::string, std::uint64_t>>();
-    summary.first_rejections = json.at("first_rejections").get<std::vector<std::string>>();
-    summary.remarks = json.at("remarks").get<std::vector<std::string>>();
-    for (const auto& d : json.at("doubts"))
-        summary.doubts.push_back({d.at("what"), d.at("clips"), d.at("first")});
-    for (const auto& d : json.at("datasets"))
-        summary.datasets.push_back({(out / d.at("folder").get<std::string>()).lexically_normal().string(),
-                                    d.at("clips"), d.at("frames"), d.at("bytes"), d.at("shards"),
-                                    d.at("classes")});
-    return true;
+    const auto text = read_text(path, scratch, std::uint64_t{1} << 26);
+    expect_shallow_json(text, path);
+    try {
+        const auto json = nlohmann::ordered_json::parse(text);
+        if (own_checksum_of(json) == OwnChecksum::wrong) throw Error("its checksum is of other contents");
+        if (json.at("request") != request) return false;
+        take_summary(json, out, summary);
+        return true;
+    } catch (const std::exception& e) {
+        throw Error(
+            "{}: damaged: {}; it tells what {} was made from: remove that folder, or choose another -o",
+            path.string(), printable(e.what()), out.string());
+    }
 }
 
 }  // namespace actformer::ingest

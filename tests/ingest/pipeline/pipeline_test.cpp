@@ -2,6 +2,7 @@
 #include "ingest/pipeline/pipeline.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <atomic>
 #include <mutex>
@@ -11,6 +12,9 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/flips.hpp"
+#include "tests/support/replaced.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
@@ -133,6 +137,13 @@ struct PipelineOnDevice : testing::Test {
         return text;
     }
 
+    /// More than one tranche: where a format stops, the first is kept.
+    void write_more_than_a_tranche() const {
+        for (int i = 0; i < 5000; ++i)
+            write_file(dir / fmt::format("raw/{:04}.lines", i), fmt::format("n{} 1 2\n", i));
+        write_file(dir / "raw/z.lines", many("z", 300) + "stop\n" + many("y", 20));
+    }
+
     /// Names and contents of all files below `folder`.
     static std::map<std::string, std::string> contents(const fs::path& folder) {
         std::map<std::string, std::string> out;
@@ -220,10 +231,7 @@ TEST_F(PipelineOnDevice, HoldsFewClipsOfALargeFileAtOnce) {
 }
 
 TEST_F(PipelineOnDevice, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
-    // More than one tranche: the first is kept.
-    for (int i = 0; i < 5000; ++i)
-        write_file(dir / fmt::format("raw/{:04}.lines", i), fmt::format("n{} 1 2\n", i));
-    write_file(dir / "raw/z.lines", many("z", 300) + "stop\n" + many("y", 20));
+    write_more_than_a_tranche();
     LineFormat whole, stopped;
     run(whole, "whole");
     stopped.stops = true;
@@ -232,6 +240,106 @@ TEST_F(PipelineOnDevice, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
     LineFormat resumed;
     EXPECT_EQ(run(resumed).resumed_files, 4096U);
     EXPECT_EQ(contents(dir / "out"), contents(dir / "whole"));
+}
+
+TEST_F(PipelineOnDevice, WhatChangedBetweenAStopAndTheNextRunIsMadeAgainAndNamed) {
+    write_more_than_a_tranche();
+    LineFormat whole, stopped;
+    run(whole, "whole");
+    stopped.stops = true;
+    EXPECT_THROW(run(stopped), Error);
+    fs::rename(dir / "out.partial", dir / "kept");
+    const auto journal = read_file(dir / "kept/journal"), shard = read_file(dir / "kept/data/shard-00000.h5");
+    const auto second = journal.find('\n') + 1;
+    struct Damage {
+        const char* file;
+        std::string bytes;
+        const char* said;
+        std::uint64_t resumed;
+    };
+    auto flipped = shard;
+    flipped[shard.size() / 2] ^= 4;
+    const std::vector<Damage> damages{
+        {"journal", journal, "", 4096},
+        {"journal", journal.substr(0, journal.size() - 1), "", 0},  // cut short by the kill
+        {"journal", replaced(journal, "\"files\":4096", "\"files\":4095"), "journal:2: damaged", 0},
+        {"journal", replaced(journal, "\"names\"", "\"nomes\""), "journal:2: damaged", 0},
+        {"journal", journal.substr(0, second) + "x" + journal.substr(second), "journal:2: damaged", 0},
+        {"journal", "x" + journal, "journal: damaged, or of other settings", 0},
+        {"journal", "", "", 0},
+        {"data/shard-00000.h5", flipped, "shard-00000.h5: changed since it was written", 0},
+        {"data/shard-00000.h5", shard.substr(1), "shard-00000.h5: missing, or of another size", 0}};
+    for (const auto& damage : damages) {
+        fs::remove_all(dir / "out");
+        fs::copy(dir / "kept", dir / "out.partial", fs::copy_options::recursive);
+        write_file(dir / "out.partial" / damage.file, damage.bytes);
+        LineFormat resumed;
+        const auto summary = run(resumed);
+        EXPECT_EQ(summary.resumed_files, damage.resumed) << damage.said;
+        EXPECT_EQ(contents(dir / "out"), contents(dir / "whole")) << damage.said;
+        ASSERT_EQ(summary.made_again.size(), *damage.said ? 1U : 0U) << damage.said;
+        if (summary.made_again.empty()) continue;
+        EXPECT_NE(summary.made_again[0].find(damage.said), std::string::npos) << summary.made_again[0];
+    }
+}
+
+TEST_F(PipelineOnDevice, FlippedBytesInWhatAStopLeftAreNoticed) {
+    write_more_than_a_tranche();
+    LineFormat stopped;
+    stopped.stops = true;
+    EXPECT_THROW(run(stopped), Error);
+    fs::rename(dir / "out.partial", dir / "kept");
+    for (const auto* file : {"journal", "data/shard-00000.h5"})
+        flip_and_read(file, dir / "kept" / file, flips_to_make(2), {file}, [&]() -> FlipOutcome {
+            fs::remove_all(dir / "out");
+            fs::remove_all(dir / "out.partial");
+            fs::copy(dir / "kept", dir / "out.partial", fs::copy_options::recursive);
+            LineFormat resumed;
+            try {
+                const auto summary = run(resumed);
+                std::string all;
+                for (const auto& [name, sum] : contents(dir / "out")) all += name + " " + sum + "\n";
+                return {{}, !summary.made_again.empty(), all};
+            } catch (const std::exception& e) {
+                return {std::string(e.what()) + "\n", false, {}};
+            }
+        });
+}
+
+TEST_F(PipelineOnDevice, ADamagedRecordOfAFinishedIngestIsNamed) {
+    write_file(dir / "raw/a.lines", "x 1 2\n");
+    LineFormat format, again;
+    run(format);
+    const auto path = dir / "out/ingest.json";
+    const auto text = read_file(path);
+    for (const auto& damaged :
+         {replaced(text, "\"files\": 1", "\"files\": 2"), replaced(text, "files", "fils"),
+          text.substr(0, text.size() / 2), std::string()}) {
+        write_file(path, damaged);
+        const auto why = error_of([&] { run(again); });
+        EXPECT_NE(why.find("ingest.json: damaged"), std::string::npos) << why;
+        EXPECT_NE(why.find("choose another -o"), std::string::npos) << why;
+    }
+    write_file(path, text);
+    EXPECT_TRUE(run(again).was_complete);
+}
+
+TEST_F(PipelineOnDevice, AFifoIsSkippedByName) {
+    write_file(dir / "raw/a.lines", "x 1 2\n");
+    ASSERT_EQ(::mkfifo((dir / "raw/b.lines").c_str(), 0600), 0);
+    LineFormat format;
+    EXPECT_EQ(run(format).left_out, (std::map<std::string, std::uint64_t>{{"broken", 1}}));
+    EXPECT_EQ(read_file(dir / "out/rejected.csv"),
+              fmt::format("file,kind,reason\n{},broken,\"a FIFO, and no regular file\"\n",
+                          (dir / "raw/b.lines").string()));
+}
+
+TEST_F(PipelineOnDevice, AnArchiveWithoutAFileOfTheFormatIsNamed) {
+    write_file(dir / "other/notes.md", "nothing");
+    ASSERT_EQ(run_command("cd " + (dir / "other").string() + " && tar -cf ../raw notes.md").exit, 0);
+    LineFormat format;
+    const auto why = error_of([&] { run(format); });
+    EXPECT_NE(why.find((dir / "raw").string() + ": no .lines, .txt file in it"), std::string::npos) << why;
 }
 
 TEST_F(PipelineOnDevice, SurveysEveryFileBeforeTheFirstIsRead) {
