@@ -14,6 +14,7 @@
 #include "base/files/scratch.hpp"
 #include "base/files/temporary.hpp"
 #include "base/process/interruption.hpp"
+#include "base/text/checked_json.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
@@ -237,7 +238,8 @@ void run(const ScoreOptions& options, const eval::GenerateSets& generate) {
     if (!options.out.empty()) check_output(options.out);
     WorkFolder work(options.out);
     const auto scored = scored_by(options, generate, work.path());
-    if (!options.out.empty()) write_whole(options.out, scored.json.dump(2) + "\n");
+    for (const auto& note : scored.notes) say(stderr, "{}\n", note);
+    if (!options.out.empty()) write_whole(options.out, with_checksum(scored.json).dump(2) + "\n");
     work.done();
     if (options.json)
         fmt::print("{}\n", scored.json.dump(2));

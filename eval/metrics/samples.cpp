@@ -11,11 +11,14 @@ namespace {
 template <typename T>
 void check_finite(const std::vector<T>& values, std::size_t columns, const char* what,
                   const std::string& where) {
-    const auto bad = std::find_if(values.begin(), values.end(), [](T v) { return !std::isfinite(v); });
+    constexpr double most = 1e150;  // squares of larger ones, added up, are infinite
+    const auto bad =
+        std::find_if(values.begin(), values.end(), [](T v) { return !(std::abs(double{v}) < most); });
     if (bad == values.end()) return;
     const auto at = static_cast<std::size_t>(bad - values.begin());
-    throw Error("{}: {} {} of sample {} is not finite; leave that sample out, or make it again", where, what,
-                at % columns, at / columns);
+    throw Error(
+        "{}: {} {} of sample {} is not finite or beyond 1e150; leave that sample out, or make it again",
+        where, what, at % columns, at / columns);
 }
 
 }  // namespace

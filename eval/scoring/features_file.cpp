@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/checksum/own_checksum.hpp"
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 
@@ -62,6 +63,12 @@ void FeaturesFile::frames(std::uint32_t shortest, std::uint32_t longest) {
 
 void FeaturesFile::finish() {
     writer_.finish();
+}
+
+bool is_as_written(const std::filesystem::path& path) {
+    std::error_code ignored;
+    return std::filesystem::is_regular_file(path, ignored) &&
+           own_checksum_of_file(path) == OwnChecksum::right;
 }
 
 StoredFeatures read_features(const std::filesystem::path& path) {

@@ -45,4 +45,7 @@ struct StoredFeatures {
 /// shape, not finite, or no label.
 StoredFeatures read_features(const std::filesystem::path& path);
 
+/// Whether a file that this program keeps for itself is there, and has the checksum that it was written with.
+bool is_as_written(const std::filesystem::path& path);
+
 }  // namespace actformer::eval

@@ -101,7 +101,7 @@ void write_measures(const std::filesystem::path& path, const MotionMeasures& mea
     write("root_acceleration", measures.root_acceleration);
     write("foot_sliding", measures.foot_sliding);
     write("distances", measures.distances);
-    write_whole(path, file.image());
+    write_whole(path, file.checked_image());
 }
 
 MotionMeasures read_measures(const std::filesystem::path& path) {

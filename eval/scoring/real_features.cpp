@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 /// What can be read; none where the file is not there or damaged.
 std::optional<StoredFeatures> read_if_whole(const fs::path& path) {
-    if (!fs::exists(path)) return {};
+    if (!is_as_written(path)) return {};
     try {
         return read_features(path);
     } catch (const Error&) {
@@ -62,8 +62,11 @@ CachedFeatures cached_features(FeatureExtractor& extractor, const WindowsOptions
     }
     const FileLock lock(path.string() + ".lock");
     if (auto kept = read_if_whole(path)) return {std::move(*kept), path};
+    const auto note = fs::exists(path)
+                          ? fmt::format("{}: damaged, or of an earlier version; made anew", path.string())
+                          : "";
     make(path);
-    return {read_features(path), path};
+    return {read_features(path), path, note};
 }
 
 }  // namespace actformer::eval

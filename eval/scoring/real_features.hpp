@@ -16,6 +16,7 @@ std::filesystem::path features_cached_at(const FeatureExtractor& extractor, cons
 struct CachedFeatures {
     StoredFeatures features;
     std::filesystem::path file;  ///< that they are in
+    std::string note{};  ///< of kept ones that were damaged and have been made anew; empty where none were
 };
 
 /// Reads them from there, where need be making them first. Of several processes that want the same features one makes them

@@ -71,12 +71,17 @@ class Sides {
 
     Observed real() {
         auto cached = real_features(first(), "real.h5");
+        add_note(cached.note);
         if (!request_.keep.empty()) {
             make_folders(request_.keep);
             copy_whole(cached.file, request_.keep / "real.h5");
         }
         auto out = observed(std::move(cached.features), request_.real.dataset.string());
-        if (whole_ && single_) add_groups(out, real_features(*single_, "real-groups.h5").features);
+        if (whole_ && single_) {
+            auto groups = real_features(*single_, "real-groups.h5");
+            add_note(groups.note);
+            add_groups(out, std::move(groups.features));
+        }
         out.motion = real_measures();
         return with_classes(std::move(out));
     }
@@ -99,6 +104,9 @@ class Sides {
 
     /// What is shown of each motion, set by set.
     const std::vector<std::string>& views() const { return views_; }
+
+    /// What was kept, damaged, and has been made anew.
+    const std::vector<std::string>& notes() const { return notes_; }
 
     /// The first repeat's lengths.
     const StoredFeatures& first_repeat() const { return first_repeat_; }
@@ -187,11 +195,24 @@ class Sides {
         return fs::path(file_of(set, whole_ ? *whole_ : *single_)).replace_extension(".measures");
     }
 
+    void add_note(const std::string& note) {
+        if (!note.empty()) notes_.push_back(note);
+    }
+
+    /// Whether an interrupted scoring left it, as it was written.
+    bool is_kept(const fs::path& file) {
+        if (!fs::exists(file)) return false;
+        if (is_as_written(file)) return true;
+        add_note(fmt::format("{}: damaged, or of an earlier version; made anew", file.string()));
+        fs::remove(file);
+        return false;
+    }
+
     /// Of the real windows; they lie in the work folder until scoring has ended.
     std::optional<MotionMeasures> real_measures() {
         if (!tape_) return {};
         const auto file = request_.work / "real.measures";
-        if (fs::exists(file)) return read_measures(file);
+        if (is_kept(file)) return read_measures(file);
         MeasuredSource real(open_windows(device_, request_.real), *tape_, device_);
         while (!real.next().rows.empty()) continue;
         write_measures(file, real.measures());
@@ -202,10 +223,10 @@ class Sides {
     void make_missing(const MotionSet& set) {
         std::vector<FeaturesTarget> missing;
         for (auto* extractor : {whole_ ? &*whole_ : nullptr, single_ ? &*single_ : nullptr})
-            if (extractor && !fs::exists(file_of(set, *extractor)))
+            if (extractor && !is_kept(file_of(set, *extractor)))
                 missing.push_back({extractor, file_of(set, *extractor)});
         auto motions = set.open();
-        if (!tape_ || !fits(*tape_, motions->info()) || fs::exists(measures_of(set))) {
+        if (!tape_ || !fits(*tape_, motions->info()) || is_kept(measures_of(set))) {
             if (!missing.empty()) write_features(*motions, missing, tell(set.name));
             return;
         }
@@ -223,7 +244,7 @@ class Sides {
     ingest::Dataset dataset_;
     std::optional<MeasuringTape> tape_;  ///< none where motions cannot be measured
     std::optional<FeatureExtractor> whole_, single_;
-    std::vector<std::string> classes_, views_;
+    std::vector<std::string> classes_, views_, notes_;
     StoredFeatures first_repeat_;  ///< its frames
 };
 
@@ -267,6 +288,7 @@ Scored score_motions(const ScoreMotions& request, kernels::Device& device, const
     warn_of_lengths(out.report, request.real.window, sides.first_repeat());
     out.json = to_json(out.report);
     out.json["provenance"] = provenance_of_motions(request, sides, device.info().name);
+    out.notes = sides.notes();
     return out;
 }
 

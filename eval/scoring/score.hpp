@@ -40,6 +40,8 @@ struct ScoreFeatures {
 struct Scored {
     ScoreReport report;
     nlohmann::ordered_json json;  ///< to_json(report) and "provenance"
+    std::vector<std::string>
+        notes{};  ///< of kept features that were damaged and have been made anew, a line each
 };
 
 using ScoreProgress = std::function<void(const std::string& what, std::uint64_t done, std::uint64_t all)>;

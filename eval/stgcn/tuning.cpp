@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
 #include "base/files/cache.hpp"
 #include "base/files/file.hpp"
-#include "base/text/json.hpp"
+#include "base/text/checked_json.hpp"
+#include "base/text/loose_json.hpp"
 #include "eval/stgcn/recogniser.hpp"
 #include "kernels/buffer.hpp"
 
@@ -23,10 +23,11 @@ std::string key_of(const kernels::DeviceInfo& device) {
     return fmt::format("{} | {} | {}", device.name, device.platform, device.driver);
 }
 
+/// What is kept; nothing where the file is not there, or damaged.
 Json read_file() {
-    std::ifstream file(tiles_file());
-    auto json = json_or_discarded<Json>(std::string(std::istreambuf_iterator<char>(file), {}));
-    return json.is_object() ? json : Json::object();
+    auto json = loose::read(tiles_file());
+    if (!json.is_object() || own_checksum_of(json) == OwnChecksum::wrong) return Json::object();
+    return json;
 }
 
 Json to_json(const Tiles& t) {
@@ -80,6 +81,9 @@ std::filesystem::path tiles_file() {
 }
 
 Tiles load_tiles(const kernels::DeviceInfo& device) {
+    if (std::filesystem::exists(tiles_file()) && read_file().empty())
+        throw Error("{}: damaged; remove it, or measure again with actformer bench features --tune",
+                    tiles_file().string());
     const auto json = read_file();
     const auto found = json.find(key_of(device));
     if (found == json.end()) return default_tiles(device);
@@ -102,7 +106,7 @@ void save_tiles(const kernels::DeviceInfo& device, const Tiles& tiles) {
     auto json = read_file();
     json[key_of(device)] = to_json(tiles);
     make_folders(tiles_file().parent_path());
-    write_whole(tiles_file(), json.dump(2) + "\n");
+    write_whole(tiles_file(), with_checksum(json).dump(2) + "\n");
 }
 
 double measure_rate(kernels::Device& device, const Weights& weights, const Tiles& tiles,

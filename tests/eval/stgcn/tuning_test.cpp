@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include "tests/support/error_of.hpp"
+#include "tests/support/replaced.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
@@ -27,8 +29,16 @@ TEST(Tuning, KeepsTilesOfEveryDevice) {
     one.driver = "newer";
     EXPECT_EQ(eval::load_tiles(one), default_tiles(one)) << "another driver is another device";
 
-    test::write_file(eval::tiles_file(), "{ damaged");
-    EXPECT_EQ(eval::load_tiles(other), default_tiles(other));
+    // Other tiles round otherwise: features must not change in silence.
+    const auto kept = test::read_file(eval::tiles_file());
+    for (const auto& damaged :
+         {std::string("{ damaged"), test::replaced(kept, "\"rows\": 7", "\"rows\": 5")}) {
+        test::write_file(eval::tiles_file(), damaged);
+        const auto why = test::error_of([&] { eval::load_tiles(other); });
+        EXPECT_NE(why.find("tiles.json: damaged; remove it"), std::string::npos) << why;
+    }
+    eval::save_tiles(other, tiles);
+    EXPECT_EQ(eval::load_tiles(other), tiles) << "measured again";
     test::write_file(eval::tiles_file(), R"({"other |  | ": {"vec": 3, "rows": -1}})");
     EXPECT_EQ(eval::load_tiles(other), default_tiles(other));
     ::unsetenv("XDG_CACHE_HOME");
