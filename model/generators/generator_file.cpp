@@ -42,7 +42,7 @@ void save_generator(const fs::path& path, const std::vector<Array>& weights, con
     file.attribute("configuration", config.yaml());
     ingest::write_subjects(file, subjects);
     for (const auto& [name, text] : notes) file.attribute(name, text);
-    write_whole(path, file.image());
+    write_whole(path, file.checked_image());
 }
 
 std::unique_ptr<Maker> GeneratorFile::maker(const std::string& device) const {

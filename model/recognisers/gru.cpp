@@ -43,7 +43,7 @@ void save_gru_weights(const std::filesystem::path& path, const GruSettings& sett
     file.attribute("classes", std::int64_t{settings.classes});
     file.attribute("parents", std::vector<std::int64_t>(settings.parents.begin(), settings.parents.end()));
     for (const auto& [name, text] : notes) file.attribute(name, text);
-    write_whole(path, file.image());
+    write_whole(path, file.checked_image());
 }
 
 }  // namespace actformer::model

@@ -135,7 +135,7 @@ ImportedRecogniser import_recogniser(const ImportRecogniserRequest& request) {
     file.attribute("program", std::string("actformer " ACTFORMER_VERSION));
     file.attribute("imported", request.file.filename().string());
     file.attribute("imported_checksum", checksum_file(request.file));
-    write_whole(request.out, file.image());
+    write_whole(request.out, file.checked_image());
     std::uint64_t numbers = 0;
     for (const auto& weight : weights)
         numbers += std::visit([](const auto& v) { return v.size(); }, weight.values);

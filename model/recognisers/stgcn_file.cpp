@@ -18,7 +18,7 @@ void save_weights(const std::filesystem::path& path, const StgcnSettings& settin
                    std::vector<std::int64_t>(settings.graph.parents.begin(), settings.graph.parents.end()));
     file.attribute("center", std::int64_t{settings.graph.center});
     for (const auto& [name, text] : notes) file.attribute(name, text);
-    write_whole(path, file.image());
+    write_whole(path, file.checked_image());
 }
 
 }  // namespace actformer::model

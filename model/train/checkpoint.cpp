@@ -3,7 +3,7 @@
 #include <charconv>
 #include <map>
 
-#include "base/checksum/checksum.hpp"
+#include "base/checksum/own_checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/hdf5/reader.hpp"
@@ -19,10 +19,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::string_view prefix = "checkpoint-", extension = ".h5";
 constexpr const char *progress = "progress", *steps_done = "step";
 constexpr std::string_view before_hdf5 = "actformer checkpoint ";  // how files of earlier versions begin
-
-std::string last_line(std::string_view bytes) {
-    return "\nchecksum " + checksum(bytes) + "\n";
-}
 
 /// Finished checkpoints, those of earlier versions too, the newest first.
 std::vector<fs::path> checkpoints_in(const fs::path& folder) {
@@ -45,13 +41,6 @@ std::string read_whole(const fs::path& path) {
     std::string bytes;
     read_in_pieces(path, [&](std::string_view piece) { bytes += piece; });
     return bytes;
-}
-
-/// Whether the file is as it was written: nothing is read by HDF5 before that is known.
-bool whole(std::string_view bytes) {
-    const auto length = last_line({}).size();
-    return bytes.size() > length &&
-           bytes.substr(bytes.size() - length) == last_line(bytes.substr(0, bytes.size() - length));
 }
 
 std::size_t bytes_of(const std::vector<Array>& arrays) {
@@ -79,14 +68,13 @@ void save_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
     file.write_strings(progress, {checkpoint.state.dump()});
     file.attribute(steps_done, static_cast<std::int64_t>(checkpoint.step));
     file.attribute("program", std::string("actformer " ACTFORMER_VERSION));
-    const auto image = file.image();
-    write_whole(checkpoint_path(folder, checkpoint.step), std::string(image) + last_line(image));
+    write_whole(checkpoint_path(folder, checkpoint.step), file.checked_image());
     const auto files = checkpoints_in(folder);
     for (std::size_t i = 2; i < files.size(); ++i) fs::remove(files[i]);
 }
 
 std::optional<Checkpoint> read_checkpoint(const fs::path& path) {
-    if (!whole(read_whole(path))) return std::nullopt;
+    if (own_checksum_of_file(path) != OwnChecksum::right) return std::nullopt;
     const hdf5::Reader file(path);
     Checkpoint checkpoint;
     checkpoint.step = static_cast<std::uint64_t>(file.attribute_numbers(steps_done).at(0));
@@ -109,21 +97,29 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& path) {
 std::optional<Checkpoint> newest_checkpoint(const fs::path& folder, const std::string& model,
                                             const std::function<void(const std::string&)>& note) {
     const auto files = checkpoints_in(folder);
+    fs::path earlier;  // the newest of an earlier version
     for (std::size_t i = 0; i < files.size(); ++i) {
-        if (files[i].extension() != extension && read_whole(files[i]).starts_with(before_hdf5))
-            throw Error(
-                "{}: written by an earlier version of actformer; go on with that one, or choose another -o",
-                files[i].string());
+        if (files[i].extension() != extension && read_whole(files[i]).starts_with(before_hdf5)) {
+            if (earlier.empty()) earlier = files[i];
+            continue;
+        }
         if (auto checkpoint = read_checkpoint(files[i])) {
             if (const auto whose = checkpoint->state.value("model", "unknown"); whose != model)
                 throw Error("{}: a checkpoint of a {}, not of a {}; choose another -o", files[i].string(),
                             whose, model);
+            if (!earlier.empty())
+                note(fmt::format("{}: of another version; going back to {}", earlier.string(),
+                                 files[i].string()));
             return checkpoint;
         }
         note(fmt::format("{}: cut short or damaged; {}", files[i].string(),
                          i + 1 < files.size() ? "going back to the one before" : "starting anew"));
         fs::rename(files[i], files[i].string() + ".damaged");
     }
+    if (!earlier.empty())
+        throw Error(
+            "{}: written by an earlier version of actformer; go on with that one, or choose another -o",
+            earlier.string());
     return std::nullopt;
 }
 

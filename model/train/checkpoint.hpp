@@ -30,7 +30,8 @@ void save_checkpoint(const std::filesystem::path& folder, const Checkpoint& chec
 std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& file);
 
 /// The newest whole checkpoint in `folder`; none where there is none. `note` hears of every damaged one that was passed over,
-/// which stays as NAME.damaged. Throws Error where it is of another model than `model`, or an earlier version's.
+/// which stays as NAME.damaged, and of one of an earlier version that was. Throws Error where it is of another model than `model`, or there are
+/// only some of an earlier version.
 std::optional<Checkpoint> newest_checkpoint(const std::filesystem::path& folder, const std::string& model,
                                             const std::function<void(const std::string&)>& note);
 

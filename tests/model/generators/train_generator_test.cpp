@@ -18,6 +18,7 @@
 #include "model/generators/train_generator.hpp"
 #include "model/train/checkpoint.hpp"
 #include "tests/support/checkpoints.hpp"
+#include "tests/support/flips.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/run_log.hpp"
 #include "tests/support/toy_dataset.hpp"
@@ -108,6 +109,23 @@ TEST_F(TrainGenerator, ASignalKeepsTheRunningStep) {
         EXPECT_EQ(read_file(dir / "whole/weights-last.h5"), read_file(dir / "stopped/weights-last.h5"));
         fs::remove_all(dir / "stopped");
     }
+}
+
+TEST_F(TrainGenerator, FlippedBytesInWeightsAndCheckpointsAreNoticed) {
+    ASSERT_EQ(train("run", "epochs=2").exit, 0);
+    flip_and_read("generator's weights", dir / "run/weights-last.h5", flips_to_make(2), {"weights-last.h5"},
+                  [&] {
+                      return outcome_of("",
+                                        "generate --generator " + at("run/weights-last.h5") +
+                                            " --per-class 1 --frames 8 -o " + at("m.h5"),
+                                        dir / "m.h5");
+                  });
+    const auto checkpoint = dir / "run" / newest(dir / "run");
+    flip_and_read("checkpoint", checkpoint, flips_to_make(2), {"checkpoint-"}, [&] {
+        auto outcome = outcome_of("", line("run", "epochs=2"), dir / "run/weights-last.h5");
+        outcome.anew = fs::remove(checkpoint.string() + ".damaged");
+        return outcome;
+    });
 }
 
 TEST_F(TrainGenerator, RatesDropAtTheEpochsNamed) {

@@ -102,6 +102,11 @@ TEST(Checkpoint, DamagedOnesAreSetAsideAndForeignOnesRefused) {
     save_checkpoint(dir.path(), sample(4));
     EXPECT_THROW(newest_checkpoint(dir.path(), "actformer", no_notes), actformer::Error);
     write_file(dir / "checkpoint-00005", "actformer checkpoint 2\nbefore it was HDF5");
+    std::string note;
+    expect_same(*newest_checkpoint(dir.path(), "toy", [&](const std::string& line) { note = line; }),
+                sample(4));
+    EXPECT_NE(note.find("checkpoint-00005: of another version; going back to"), std::string::npos) << note;
+    std::filesystem::remove(dir / "checkpoint-00004.h5");
     try {
         newest_checkpoint(dir.path(), "toy", no_notes);
         ADD_FAILURE() << "taken";
