@@ -82,6 +82,10 @@ std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, c
     return failed;
 }
 
+void say_again(const reports::Job& job, const std::string& why) {
+    say(stderr, "again:  {} ({}): {}\n", job.title, job.id, why);
+}
+
 /// This command again for one job, for Slurm, which may run it on another machine with the same file system.
 std::vector<std::string> again(const SweepOptions& options, const reports::Job& job) {
     return {(program_folder() / "actformer").string(),
@@ -99,6 +103,7 @@ void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Swee
               const SweepJobs& jobs) {
     std::size_t done = 0;
     reports::SweepEvents events;
+    events.again = say_again;
     events.begins = [&](const reports::Job& job) { say(stderr, "begins: {} ({})\n", job.title, job.id); };
     events.ends = [&](const reports::Job& job, const reports::JobStatus& status) {
         ++done;
@@ -135,7 +140,7 @@ void run(SweepOptions options) {
     if (options.slurm && !options.dry_run) {
         const auto count = reports::submit_plan(
             sweep, plan, {options.out, jobs}, [&](const reports::Job& job) { return again(options, job); },
-            options.sbatch);
+            options.sbatch, say_again);
         say("{} submitted; follow them with actformer sweep {} -o {} --status\n", counted(count, "job"),
             options.file.string(), options.out.string());
         return;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/text/checked_json.hpp"
 #include "base/text/loose_json.hpp"
 
 namespace actformer::reports {
@@ -27,7 +28,7 @@ Json read_results(const fs::path& folder) {
         throw Error("{}: no results.json in it; give the folder that `actformer sweep FILE -o FOLDER` wrote",
                     folder.string());
     auto json = loose::read(path);
-    if (!loose::member(json, "rows").is_array())
+    if (!loose::member(json, "rows").is_array() || own_checksum_of(json) == OwnChecksum::wrong)
         throw Error("{}: damaged, or not a sweep's results; `actformer sweep` again writes it anew",
                     path.string());
     if (loose::member(json, "format") != Json(1))
@@ -46,7 +47,7 @@ Json read_scores(const MeasuredRun& run, const std::string& row, std::vector<std
         notices.push_back(fmt::format("{}, seed {}: {}", row, run.seed, e.what()));
         return {};
     }
-    if (json.is_object()) return json;
+    if (json.is_object() && own_checksum_of(json) != OwnChecksum::wrong) return json;
     notices.push_back(fmt::format("{}, seed {}: {} is {}; `actformer sweep` again makes it anew", row,
                                   run.seed, run.scores.string(),
                                   fs::exists(run.scores) ? "damaged" : "missing"));

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/lock.hpp"
+#include "base/text/checked_json.hpp"
 #include "base/text/loose_json.hpp"
 
 namespace actformer::reports {
@@ -114,8 +115,8 @@ nlohmann::ordered_json results(const Sweep& sweep, const Plan& plan, const fs::p
 
 void write_results(const Sweep& sweep, const Plan& plan, const fs::path& out) {
     const FileLock lock(out / "results.lock");
-    const auto text = results(sweep, plan, out).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-    write_whole(out / "results.json", text);
+    const auto json = with_checksum(results(sweep, plan, out));
+    write_whole(out / "results.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::optional<double> estimate(const Plan& plan, const std::vector<JobStatus>& status, std::size_t job) {

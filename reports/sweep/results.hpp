@@ -12,8 +12,10 @@
 //     whole; what is not there yet is not there yet. Only runs whose status is "done" have scores that count. A cell's value
 //     is the mean over all repeats of all done runs of the one row that fills it; a cell that no row fills, or whose row has
 //     no done run, is "not run". Names are text from a user's file.
-//   OUT/jobs/KIND-FINGERPRINT/  job.json (title, commands), log.txt, what the commands made, then done.json (seconds, finished)
-//                               or failed.json (why)
+//   OUT/jobs/KIND-FINGERPRINT/  job.json (title, commands), log.txt, what the commands made, then done.json (seconds, finished, made: the
+//                               checksums of what they made) or failed.json (why)
+//
+// Every .json ends in a member `checksum`, of all others.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -11,7 +11,9 @@
 #include "base/files/file.hpp"
 #include "base/files/lock.hpp"
 #include "base/process/interruption.hpp"
+#include "base/text/checked_json.hpp"
 #include "base/threads/thread.hpp"
+#include "reports/sweep/kept.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -20,7 +22,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 void write_json(const fs::path& path, const Json& json) {
-    write_whole(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    write_whole(path, with_checksum(json).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 std::string now() {
@@ -48,7 +50,10 @@ std::string work_on(const Job& job, const SweepOptions& options, const SafePoint
     make_folders(folder);
     const auto lock = lock_when_free(folder / "lock", safe_points);
     if (!lock) return "another process does it";
-    if (fs::exists(folder / "done.json")) return {};  // by whom we waited for
+    if (fs::exists(folder / "done.json")) {
+        if (fault_of_results(folder).empty()) return {};  // done by whom we waited for
+        discard_results(folder);
+    }
     fs::remove(folder / "failed.json");
     const auto commands = options.runner.command_lines(job);
     write_json(folder / "job.json", {{"kind", job.kind}, {"title", job.title}, {"commands", commands}});
@@ -56,7 +61,8 @@ std::string work_on(const Job& job, const SweepOptions& options, const SafePoint
     const auto why = options.runner.run(job, folder / "log.txt");
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (why.empty())
-        write_json(folder / "done.json", {{"seconds", seconds}, {"finished", now()}});
+        write_json(folder / "done.json",
+                   {{"seconds", seconds}, {"finished", now()}, {"made", checksums_of_results(folder)}});
     else if (!safe_points.asked())
         write_json(folder / "failed.json", {{"why", why}, {"seconds", seconds}, {"finished", now()}});
     return why;
@@ -82,7 +88,7 @@ class Schedule {
           events_(events),
           safe_points_(safe_points),
           taken_(plan.jobs.size(), false) {
-        status_ = statuses(plan, options.out);
+        status_ = checked_statuses(plan, options.out, events.again);
         for (std::size_t i = 0; i < status_.size(); ++i) {
             auto& s = status_[i];
             if (s.state != JobState::done && plan.jobs[i].problem.empty()) s = {};  // tried again

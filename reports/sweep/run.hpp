@@ -17,9 +17,10 @@ struct SweepOptions {
 struct SweepEvents {
     std::function<void(const Job& job)> begins;
     std::function<void(const Job& job, const JobStatus& status)> ends;
+    std::function<void(const Job& job, const std::string& why)> again{};  ///< what it made is not as it was
 };
 
-/// Runs what is not done; a job whose needs are done begins as soon as one of `jobs` workers is free. A failed job stops those that
+/// Runs what is not done, or no longer as it was made; a job whose needs are done begins as soon as one of `jobs` workers is free. A failed job stops those that
 /// need it and no others, and is tried again by the next call. Several processes may work in one folder: each job is done by
 /// one of them, and the others wait for it. results.json is written before the first job and after each. A signal goes to the jobs
 /// that run, which keep what they have; none is begun after it. Returns the statuses. Throws Error where the folder cannot be
@@ -34,7 +35,8 @@ JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, c
 /// submitted. Throws Error where sbatch or squeue cannot be run or refuses.
 std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
                         const std::function<std::vector<std::string>(const Job&)>& command,
-                        const std::vector<std::string>& sbatch_words);
+                        const std::vector<std::string>& sbatch_words,
+                        const std::function<void(const Job& job, const std::string& why)>& again = {});
 
 /// Ids of the jobs submitted from OUT that wait or run in Slurm; none where nothing was submitted or squeue does not answer.
 std::optional<std::set<std::string>> jobs_in_slurm(const std::filesystem::path& out);

@@ -12,7 +12,9 @@
 #include "base/files/temporary.hpp"
 #include "base/process/interruption.hpp"
 #include "base/process/process.hpp"
+#include "base/text/checked_json.hpp"
 #include "base/text/loose_json.hpp"
+#include "reports/sweep/kept.hpp"
 #include "reports/sweep/run.hpp"
 
 namespace actformer::reports {
@@ -23,7 +25,12 @@ using Json = nlohmann::ordered_json;
 
 Json submitted_before(const fs::path& out) {
     auto json = loose::read(out / "slurm.json");
-    return json.is_object() ? json : Json::object();
+    if (own_checksum_of(json) == OwnChecksum::wrong)
+        throw Error("{}: damaged; remove it once none of the sweep's jobs waits or runs in Slurm",
+                    (out / "slurm.json").string());
+    if (!json.is_object()) return Json::object();
+    json.erase("checksum");
+    return json;
 }
 
 /// Its last words, which begin with its name where they are its own.
@@ -95,7 +102,8 @@ std::optional<std::set<std::string>> jobs_in_slurm(const fs::path& out) {
 
 std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
                         const std::function<std::vector<std::string>(const Job&)>& command,
-                        const std::vector<std::string>& sbatch_words) {
+                        const std::vector<std::string>& sbatch_words,
+                        const std::function<void(const Job& job, const std::string& why)>& again) {
     const SafePoints safe_points;  // a number of Slurm's that is not kept would have its job submitted twice
     make_folders(options.out / "jobs");
     write_results(sweep, plan, options.out);
@@ -108,7 +116,7 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
         queued = std::move(*asked);
     }
     // Asked after the queue: what has left that has left its mark by now.
-    const auto status = statuses(plan, options.out);
+    const auto status = checked_statuses(plan, options.out, again);
     std::vector<std::string> live(plan.jobs.size());  // numbers of those that wait or run
     std::vector<bool> fresh(plan.jobs.size());
     std::size_t submitted = 0;
@@ -132,7 +140,7 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
         live[i] = submit(job, after, options, command(job), sbatch_words);
         fresh[i] = true;
         numbers[job.id] = live[i];
-        write_whole(options.out / "slurm.json", numbers.dump(2) + "\n");
+        write_whole(options.out / "slurm.json", with_checksum(numbers).dump(2) + "\n");
         ++submitted;
     }
     return submitted;

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "tests/support/paths.hpp"
+#include "tests/support/replaced.hpp"
 #include "tests/support/sweep.hpp"
 #include "tests/support/toy_dataset.hpp"
 
@@ -123,6 +124,43 @@ TEST_F(Sweep, KilledTwiceItComesToTheSame) {
     fs::remove_all(dir / "out");
     ASSERT_EQ(sweep().exit, 0);
     EXPECT_EQ(read_file(dir / "out/results.json"), killed);
+}
+
+TEST_F(Sweep, WhatAJobMadeIsMadeAgainWhereItChangedAndThatIsSaid) {
+    sweep_file("  full: {fills: [table1/ActFormer/NTU-1P]}\n");
+    ASSERT_EQ(sweep().exit, 0);
+    const auto file = [&](const std::string& name) {
+        for (const auto& entry : fs::recursive_directory_iterator(dir / "out/jobs"))
+            if (entry.path().filename() == name && entry.path().string().find("/score-") != std::string::npos)
+                return entry.path();
+        ADD_FAILURE() << name;
+        return fs::path();
+    };
+    const auto scores = file("scores.json"), done = file("done.json");
+    const auto text = read_file(scores), noted = read_file(done);
+    const auto changes = {
+        std::tuple{scores, replaced(text, "0.5", "0.6"), "scores.json: changed since it was made"},
+        {done, replaced(noted, "finished", "finisht"), "done.json: damaged"},
+        {done, noted.substr(0, noted.size() / 2), "done.json: damaged"}};
+    for (const auto& [path, changed, why] : changes) {
+        const auto before = calls().size();
+        write_file(path, changed);
+        const auto again = sweep();
+        ASSERT_EQ(again.exit, 0) << again.output;
+        EXPECT_NE(again.output.find("again:  full, seed 0: scores"), std::string::npos) << again.output;
+        EXPECT_NE(again.output.find(why), std::string::npos) << again.output;
+        EXPECT_EQ(calls().size(), before + 1) << "the scores alone";
+        EXPECT_EQ(read_file(scores), text);
+    }
+    fs::remove(scores);
+    EXPECT_NE(sweep().output.find("scores.json: missing"), std::string::npos);
+    const auto before = calls().size();
+    auto old = Json::parse(read_file(done));  // as it was before it told any checksums
+    old.erase("made");
+    old.erase("checksum");
+    write_file(done, old.dump());
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(calls().size(), before);
 }
 
 TEST_F(Sweep, TwoProcessesShareTheWork) {

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <random>
 
+#include "base/text/checked_json.hpp"
 #include "reports/page/curves.hpp"
 #include "reports/page/exports.hpp"
 #include "reports/page/html.hpp"
@@ -246,6 +247,25 @@ TEST_F(Report, RefusesWhatIsNoSweep) {
     EXPECT_NE(error_of([&] { read_measured({dir / "half"}); }).find("damaged"), std::string::npos);
     write(dir / "later" / "results.json", "{\"format\": 2, \"rows\": []}");
     EXPECT_NE(error_of([&] { read_measured({dir / "later"}); }).find("another version"), std::string::npos);
+}
+
+TEST_F(Report, WhatIsNotAsItWasWrittenIsTold) {
+    const auto right = with_checksum(Json{{"format", 1}, {"rows", Json::array()}});
+    auto wrong = right;
+    wrong["sweep"] = "another";
+    write(dir / "right" / "results.json", right.dump());
+    EXPECT_EQ(error_of([&] { read_measured({dir / "right"}); }), "");
+    write(dir / "wrong" / "results.json", wrong.dump());
+    EXPECT_NE(error_of([&] { read_measured({dir / "wrong"}); }).find("damaged"), std::string::npos);
+
+    auto changed = with_checksum(scores({0.2}, {1}));
+    changed["accuracy"]["mean"] = 0.9;
+    add("full", "table3/full/NTU-1P", {with_checksum(scores({0.2}, {1})), changed});
+    const auto measured = read();
+    const auto told = [](const std::string& notice) {
+        return notice.find("full1.json is damaged") != std::string::npos;
+    };
+    EXPECT_EQ(std::ranges::count_if(measured.notices, told), 1);
 }
 
 TEST_F(Report, NamesAreTextInEveryForm) {
