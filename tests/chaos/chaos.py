@@ -139,7 +139,7 @@ class Chaos:
         self.home = pathlib.Path(tempfile.mkdtemp(prefix="chaos-"))
         self.base = self.home / "base"
         self.table = collections.defaultdict(collections.Counter)
-        self.seconds = {}
+        self.seconds = {}  # within which a kill is likely to land
         self.failures = []
         self.environment = dict(os.environ, XDG_CACHE_HOME=str(self.home / "cache"), TMPDIR=str(self.home / "tmp"))
         (self.home / "tmp").mkdir()
@@ -217,7 +217,7 @@ class Chaos:
             with open(self.home / "log", "wb") as log:
                 process = self.start(COMMANDS[name].words, out=out, log=log)
             try:
-                process.wait(self.random.uniform(0, self.seconds[name] * 1.1))
+                process.wait(self.random.uniform(0, self.seconds[name]))
             except subprocess.TimeoutExpired:
                 pass
             how = self.random.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
@@ -225,12 +225,14 @@ class Chaos:
             code = process.wait()
             if code == 0:
                 self.table[name]["too late"] += 1
+                self.seconds[name] *= 0.9
                 continue
             if code not in (ENDED_BY[how], -how):
                 said = (self.home / "log").read_text(errors="replace").strip()[-300:]
                 raise Failure(f"{name}: exit code {code} after {how.name}: {said}")
             gentle = gentle and how != signal.SIGKILL
             self.table[name]["kills"] += 1
+            self.seconds[name] *= 1.05
             self.table[name][how.name] += 1
             if gentle and name != "sweep":
                 self.nothing_left(name, folder, False)
