@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/lock.hpp"
 #include "base/files/scratch.hpp"
 #include "base/files/temporary.hpp"
 #include "base/process/interruption.hpp"
@@ -64,11 +65,11 @@ class WorkFolder {
         }
         path_ = out.string() + ".work";
         kept_.emplace(
-            [this] {
-                std::error_code error;
-                fs::create_directories(path_, error);
-                if (error)
-                    throw Error("{}: no folder can be made there: {}", path_.string(), error.message());
+            [this, &out] {
+                lock_ = FileLock::on_folder_if_free(path_);
+                if (!lock_)
+                    throw Error("{}: another score is writing there; wait for it, or choose another -o",
+                                out.string());
                 return path_;
             },
             Temporary::Removes::empty_folder);
@@ -90,6 +91,7 @@ class WorkFolder {
   private:
     std::optional<Scratch> temporary_;
     std::optional<Temporary> kept_;
+    std::optional<FileLock> lock_;
     std::optional<GoesOn> goes_on_;
     fs::path path_;
 };

@@ -87,7 +87,9 @@ std::vector<DeviceInfo> list_devices() {
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view wish) {
     if (devices.empty())
         throw Error(
-            "no OpenCL device: install a driver (on Debian without a GPU: apt install pocl-opencl-icd)");
+            "no OpenCL device: install a driver (on Debian without a GPU: apt install pocl-opencl-icd); "
+            "where there "
+            "is one, limits on memory and open files keep it out (ulimit -v, ulimit -n)");
     std::string from = "--device";
     if (wish.empty()) {
         if (const char* set = std::getenv("ACTFORMER_DEVICE"); set && *set) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -30,6 +31,23 @@ std::optional<FileLock> FileLock::if_free(const std::filesystem::path& path) {
     if (lock.file_ < 0) throw Error("{}: cannot be made or written: {}", path.string(), std::strerror(errno));
     if (::flock(lock.file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return {};
     return lock;
+}
+
+std::optional<FileLock> FileLock::on_folder_if_free(const std::filesystem::path& folder) {
+    for (;;) {  // whoever held it last may have removed the folder in between
+        std::error_code error;
+        std::filesystem::create_directories(folder, error);
+        if (error) throw Error("{}: no folder can be made there: {}", folder.string(), error.message());
+        FileLock lock;
+        lock.file_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (lock.file_ >= 0 && ::flock(lock.file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return {};
+        struct stat held {
+        }, named{};
+        if (lock.file_ < 0 || ::fstat(lock.file_, &held) != 0)
+            throw Error("{}: cannot be opened: {}", folder.string(), std::strerror(errno));
+        if (::stat(folder.c_str(), &named) == 0 && held.st_dev == named.st_dev && held.st_ino == named.st_ino)
+            return lock;
+    }
 }
 
 bool FileLock::is_held(const std::filesystem::path& path) {

@@ -16,6 +16,10 @@ class FileLock {
     /// None where another process holds it. Throws Error where `path` cannot be made.
     static std::optional<FileLock> if_free(const std::filesystem::path& path);
 
+    /// On a folder itself, which is made where there is none: no file of its own lies in it. None where another process holds it.
+    /// Throws Error where the folder cannot be made.
+    static std::optional<FileLock> on_folder_if_free(const std::filesystem::path& folder);
+
     /// Whether some process holds it now. Makes no file.
     static bool is_held(const std::filesystem::path& path);
 

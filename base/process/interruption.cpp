@@ -53,36 +53,43 @@ void take(int signal) {
     for (const auto child : now.children) ::kill(child, SIGTERM);
 }
 
-/// Those that end the program, but for what its caller ignores.
-sigset_t those_that_end() {
+sigset_t set_of(std::initializer_list<int> signals) {
     sigset_t set;
     ::sigemptyset(&set);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-        struct sigaction found {};
-        if (::sigaction(signal, nullptr, &found) == 0 && found.sa_handler != SIG_IGN)
-            ::sigaddset(&set, signal);
-    }
+    for (const int signal : signals) ::sigaddset(&set, signal);
     return set;
+}
+
+bool is_ignored(int signal) {
+    struct sigaction found {};
+    return ::sigaction(signal, nullptr, &found) == 0 && found.sa_handler == SIG_IGN;
 }
 
 }  // namespace
 
 void end_in_order() {
+    // Blocked in all threads, as they take it from this one: LLVM, inside OpenCL, has handlers of its own for all of these, and asks
+    // nobody. Those that end the program are waited for, also where its caller ignores them, and then nothing is done.
     ::signal(SIGPIPE, SIG_IGN);
     ::signal(SIGXFSZ, SIG_IGN);
-    const auto set = those_that_end();
-    ::pthread_sigmask(SIG_BLOCK, &set, nullptr);  // in all threads, as they take it from this one
+    const auto failing = set_of({SIGPIPE, SIGXFSZ}), ending = set_of({SIGINT, SIGTERM, SIGHUP});
+    ::pthread_sigmask(SIG_BLOCK, &failing, nullptr);
+    ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+    sigset_t ignored;
+    ::sigemptyset(&ignored);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        if (is_ignored(signal)) ::sigaddset(&ignored, signal);
     try {
-        std::thread([set] {
+        std::thread([ending, ignored] {
             for (;;) {
                 int signal = 0;
-                if (::sigwait(&set, &signal) == 0) take(signal);
+                if (::sigwait(&ending, &signal) == 0 && ::sigismember(&ignored, signal) == 0) take(signal);
             }
         }).detach();
     } catch (
         const std::
             system_error&) {  // without a thread to wait for them they end the program, as they do any other
-        ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+        ::pthread_sigmask(SIG_UNBLOCK, &ending, nullptr);
     }
 }
 

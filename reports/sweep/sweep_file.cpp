@@ -249,6 +249,9 @@ Node load(const std::filesystem::path& file) {
         return YAML::LoadFile(file.string());
     } catch (const YAML::BadFile&) {
         throw Error("{}: no such file, or not to be read", file.string());
+    } catch (const YAML::DeepRecursion& e) {
+        throw Error("{}: line {}: lists and maps too deep; is it the right file?", file.string(),
+                    e.mark.line + 1);
     } catch (const YAML::Exception& e) {
         throw Error("{}: line {}: {}", file.string(), e.mark.line + 1, e.msg);
     }

@@ -80,7 +80,7 @@ TIMED = ("log.jsonl", "lock", "ingest.json", "results.json", "done.json", "job.j
 
 COMMANDS = {
     "ingest ntu": Command("ingest ntu {base}/raw -o {out}", "data", TIMED, ("raw",), (".partial",)),
-    "ingest bvh": Command("ingest bvh {base}/bvh -o {out}", "frombvh", TIMED, ("bvh",), (".partial",)),
+    "ingest bvh": Command("ingest bvh {base}/bvh -o {out} --name {{take}}A{{action}}", "frombvh", TIMED, ("bvh",), (".partial",)),
     "ingest motions": Command("ingest motions {base}/clips.npz -o {out}", "frommotions", TIMED, (), (".partial",)),
     "export h5": Command("export {base}/data/ntu-1p -o {out}", "clips.h5", (), ("data/ntu-1p",)),
     "export npz": Command("export {base}/data/ntu-1p -o {out}", "clips.npz", (), ("data/ntu-1p",)),
@@ -113,14 +113,21 @@ class Failure(Exception):
 
 
 def differences(one, other, apart):
-    """Names in which two files or folders differ."""
+    """Names in which two files or folders differ, but for the folders' own paths."""
     one, other = pathlib.Path(one), pathlib.Path(other)
+
+    def same(name):
+        a, b = one / name, other / name
+        if not a.is_file() or not b.is_file():
+            return False
+        return filecmp.cmp(a, b, shallow=False) or a.suffix == ".json" and (
+            a.read_bytes().replace(str(one).encode(), b"OUT") == b.read_bytes().replace(str(other).encode(), b"OUT"))
+
     if one.is_file():
         return [] if other.is_file() and filecmp.cmp(one, other, shallow=False) else [other.name]
     names = {p.relative_to(root) for root in (one, other) for p in root.rglob("*") if p.is_file()}
     timed = [n for n in names if n.name in apart or n.name.startswith("checkpoint-")]
-    return [str(n) for n in sorted(names - set(timed))
-            if not (one / n).is_file() or not (other / n).is_file() or not filecmp.cmp(one / n, other / n, shallow=False)]
+    return [str(n) for n in sorted(names - set(timed)) if not same(n)]
 
 
 class Chaos:
@@ -132,7 +139,7 @@ class Chaos:
         self.home = pathlib.Path(tempfile.mkdtemp(prefix="chaos-"))
         self.base = self.home / "base"
         self.table = collections.defaultdict(collections.Counter)
-        self.seconds = {}
+        self.seconds = {}  # within which a kill is likely to land
         self.failures = []
         self.environment = dict(os.environ, XDG_CACHE_HOME=str(self.home / "cache"), TMPDIR=str(self.home / "tmp"))
         (self.home / "tmp").mkdir()
@@ -140,7 +147,7 @@ class Chaos:
     def start(self, words, base=None, out=None, log=None):
         line = [self.program, *[w.format(base=base or self.base, out=out) for w in words.split()]]
         return subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=log or subprocess.DEVNULL, stderr=subprocess.STDOUT,
-                                env=self.environment)
+                                env=self.environment, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 
     def run(self, words, base=None, out=None):
         """Exit code and what it said."""
@@ -210,7 +217,7 @@ class Chaos:
             with open(self.home / "log", "wb") as log:
                 process = self.start(COMMANDS[name].words, out=out, log=log)
             try:
-                process.wait(self.random.uniform(0, self.seconds[name] * 1.1))
+                process.wait(self.random.uniform(0, self.seconds[name]))
             except subprocess.TimeoutExpired:
                 pass
             how = self.random.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
@@ -218,12 +225,14 @@ class Chaos:
             code = process.wait()
             if code == 0:
                 self.table[name]["too late"] += 1
+                self.seconds[name] *= 0.9
                 continue
             if code not in (ENDED_BY[how], -how):
                 said = (self.home / "log").read_text(errors="replace").strip()[-300:]
                 raise Failure(f"{name}: exit code {code} after {how.name}: {said}")
             gentle = gentle and how != signal.SIGKILL
             self.table[name]["kills"] += 1
+            self.seconds[name] *= 1.05
             self.table[name][how.name] += 1
             if gentle and name != "sweep":
                 self.nothing_left(name, folder, False)

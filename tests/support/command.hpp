@@ -45,6 +45,8 @@ class Child {
                    const std::string& environment = {})
         : pid_(::fork()) {
         if (pid_ != 0) return;
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+            ::signal(signal, SIG_DFL);  // whatever the tests' caller does
         const auto command =
             "exec env " + environment + " " + program() + " " + arguments + " >" + output + " 2>&1";
         ::execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
