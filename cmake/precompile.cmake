@@ -1,15 +1,25 @@
 # Parsing headers takes most of a build. Those that most sources of a target include are parsed once for all of them. Sources that are
-# compiled with options of their own cannot share that. A build without it, which shows missing includes: -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+# compiled with options of their own cannot share that, and fewer than four pieces (together.cmake) gain nothing by it. A build without it, which shows missing includes: -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
 set(STANDARD_HEADERS <algorithm> <filesystem> <functional> <map> <memory> <optional> <string> <vector> <fmt/format.h>)
 
 function(precompile target)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
     get_source_file_property(options ${source} COMPILE_OPTIONS)
+    get_source_file_property(piece ${source} UNITY_GROUP)
     if(options)
       set_source_files_properties(${source} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+    elseif(piece)
+      list(APPEND pieces ${piece})
+    else()
+      list(APPEND pieces ${source})
     endif()
   endforeach()
+  list(REMOVE_DUPLICATES pieces)
+  list(LENGTH pieces count)
+  if(count LESS 4)
+    return()
+  endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # It forgets which code lies in the system's headers, and warns of std::string's own insides (PR 105651).
     target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)

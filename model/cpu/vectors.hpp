@@ -45,8 +45,11 @@ inline void store(T* to, Lanes<T> value) {
 }
 
 #if defined(__AVX512F__)
-inline __mmask16 first_lanes(std::ptrdiff_t count) {
-    return static_cast<__mmask16>((1U << count) - 1U);
+/// A mask of the first `count` numbers of a vector.
+template <typename T>
+inline auto first_lanes(std::ptrdiff_t count) {
+    using Mask = std::conditional_t<std::is_same_v<T, float>, __mmask16, __mmask8>;
+    return static_cast<Mask>((1U << count) - 1U);
 }
 #endif
 
@@ -55,20 +58,27 @@ template <typename T>
 inline void store_part(T* to, Lanes<T> value, std::ptrdiff_t count) {
 #if defined(__AVX512F__)
     if constexpr (std::is_same_v<T, float>)
-        return _mm512_mask_storeu_ps(to, first_lanes(count), __m512(value));
-#endif
+        _mm512_mask_storeu_ps(to, first_lanes<T>(count), __m512(value));
+    else
+        _mm512_mask_storeu_pd(to, first_lanes<T>(count), __m512d(value));
+#else
     for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = value[i];
+#endif
 }
 
 /// The first `count` numbers in memory, zeros behind them.
 template <typename T>
 inline Lanes<T> load_part(const T* from, std::ptrdiff_t count) {
 #if defined(__AVX512F__)
-    if constexpr (std::is_same_v<T, float>) return Lanes<T>(_mm512_maskz_loadu_ps(first_lanes(count), from));
-#endif
+    if constexpr (std::is_same_v<T, float>)
+        return Lanes<T>(_mm512_maskz_loadu_ps(first_lanes<T>(count), from));
+    else
+        return Lanes<T>(_mm512_maskz_loadu_pd(first_lanes<T>(count), from));
+#else
     Lanes<T> value = {};
     for (std::ptrdiff_t i = 0; i < count; ++i) value[i] = from[i];
     return value;
+#endif
 }
 
 #if defined(__AVX512F__)

@@ -12,7 +12,7 @@
 namespace actformer::model {
 namespace {
 
-TorchArrays arrays_of(const TorchFile& file) {
+TorchArrays arrays_of_file(const TorchFile& file) {
     TorchArrays out;
     std::set<std::string> groups{""};
     for (const auto& tensor : file.tensors()) {
@@ -41,7 +41,7 @@ std::vector<Array> TorchArrays::behind(const std::string& prefix) const {
 TorchArrays read_torch_arrays(const std::filesystem::path& path) {
     const MappedFile file(path);
     try {
-        return arrays_of(TorchFile(file.text()));
+        return arrays_of_file(TorchFile(file.text()));
     } catch (const Error& e) {
         throw Error("{}: {}", path.string(), e.what());
     }

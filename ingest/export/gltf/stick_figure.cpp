@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d vector(const Point& p) {
+Vector3d vector_of(const Point& p) {
     return {p[0], p[1], p[2]};
 }
 
@@ -60,9 +60,9 @@ SkinFigure stick_figure(const SkeletonMotion& motion) {
     const auto places = rest_places(motion);
     SkinFigure figure;
     for (std::size_t j = 1; j < motion.joints(); ++j)
-        if (vector(motion.rest[j]).norm() > shortest) {
+        if (vector_of(motion.rest[j]).norm() > shortest) {
             const auto parent = static_cast<std::size_t>(motion.topology.parents[j]);
-            add_bone(figure, {vector(places[parent]), parent}, {vector(places[j]), j});
+            add_bone(figure, {vector_of(places[parent]), parent}, {vector_of(places[j]), j});
         }
     if (figure.corners() == 0) add_bone(figure, {Vector3d::Zero(), 0}, {0.1 * Vector3d::UnitY(), 0});
     return figure;

@@ -13,7 +13,7 @@ namespace actformer::ingest {
 namespace {
 
 constexpr std::size_t numbers_a_row = 10;
-constexpr double most_frames = 1 << 20, farthest = 1e6;  // metres
+constexpr double most_frames = 1 << 20, farthest_joint = 1e6;  // metres
 constexpr std::uint32_t all_joints = (std::uint32_t{1} << gta_joints) - 1;
 
 /// A person in a frame.
@@ -92,7 +92,7 @@ class Reader {
             fail("joint {} of person {} comes twice in frame {}", joint, person, frame);
         body.seen |= std::uint32_t{1} << joint;
         for (std::size_t d = 0; d < 3; ++d) {
-            if (!(std::abs(row[5 + d]) <= farthest)) fail("{} is no position in metres", row[5 + d]);
+            if (!(std::abs(row[5 + d]) <= farthest_joint)) fail("{} is no position in metres", row[5 + d]);
             body.positions[3 * joint + d] = row[5 + d];
         }
         first_ = std::min(first_, frame);

@@ -20,13 +20,13 @@ constexpr std::array<double, 4> shares{0.33, 0.28, 0.22,
                                        0.17};  // as published: about 2.3, 1.9, 1.5 and 1.2 thousand
 constexpr double apart = 3.2;                  // metres between pairs, who do not meet
 
-using Track = std::vector<GtaPlaces>;
+using GtaTrack = std::vector<GtaPlaces>;
 
 constexpr std::size_t shortest = 66;  // frames: a window of the public tools and a little more
 
 /// Everybody in a programme, turned by `heading` and moved by `way`.
-std::vector<Track> played(const Programme& programme, const std::vector<std::uint64_t>& key, Random& random,
-                          double heading, const Vec& way) {
+std::vector<GtaTrack> played(const Programme& programme, const std::vector<std::uint64_t>& key,
+                             Random& random, double heading, const Vec& way) {
     Casting casting{key, {}};
     for (int p = 0; p < programme.persons; ++p)
         casting.cast.push_back({gta_body(), static_cast<std::uint64_t>(1 + random.below(80))});
@@ -36,7 +36,7 @@ std::vector<Track> played(const Programme& programme, const std::vector<std::uin
         scene = play(programme, casting);
     }
     const auto turn = about_y(heading);
-    std::vector<Track> out(static_cast<std::size_t>(scene.persons));
+    std::vector<GtaTrack> out(static_cast<std::size_t>(scene.persons));
     for (const auto& figures : scene.frames)
         for (std::size_t p = 0; p < out.size(); ++p) {
             auto places = gta_places(figures[p]);

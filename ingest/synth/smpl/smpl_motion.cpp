@@ -8,7 +8,7 @@
 namespace actformer::ingest::synth {
 namespace {
 
-SmplPose between(const SmplPose& a, const SmplPose& b, double u) {
+SmplPose pose_between(const SmplPose& a, const SmplPose& b, double u) {
     SmplPose out;
     out.pelvis = lerp(a.pelvis, b.pelvis, u);
     for (std::size_t j = 0; j < smpl_joints; ++j) out.turned[j] = slerp(a.turned[j], b.turned[j], u);
@@ -71,8 +71,8 @@ void go_on(SmplMotion& motion, SmplMotion next, std::size_t steps) {
         const Vec there = about_y(turn) * next.front().pelvis;
         place(next, turn, {last.pelvis.x - there.x, 0, last.pelvis.z - there.z});
         for (std::size_t i = 1; i <= steps; ++i)
-            motion.push_back(
-                between(last, next.front(), ease(static_cast<double>(i) / static_cast<double>(steps + 1))));
+            motion.push_back(pose_between(last, next.front(),
+                                          ease(static_cast<double>(i) / static_cast<double>(steps + 1))));
     }
     motion.insert(motion.end(), next.begin(), next.end());
 }
@@ -84,8 +84,8 @@ SmplMotion resampled(const SmplMotion& motion, double fps) {
     for (std::size_t i = 0; static_cast<double>(i) * play_fps <= last * fps + 1e-6; ++i) {
         const double at = std::min(static_cast<double>(i) * play_fps / fps, last);
         const auto before = static_cast<std::size_t>(at);
-        out.push_back(between(motion[before], motion[std::min(before + 1, motion.size() - 1)],
-                              at - static_cast<double>(before)));
+        out.push_back(pose_between(motion[before], motion[std::min(before + 1, motion.size() - 1)],
+                                   at - static_cast<double>(before)));
     }
     return out;
 }

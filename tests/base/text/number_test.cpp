@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/rounds.hpp"
+
 namespace actformer {
 namespace {
 
@@ -59,7 +61,7 @@ std::string rendering(std::mt19937_64& random) {
 
 TEST(Number, AgreesWithTheCLibraryOnAMillionRenderings) {
     std::mt19937_64 random(20230);
-    for (int i = 0; i < 1'000'000; ++i) {
+    for (int i = 0; i < test::rounds(1'000'000); ++i) {
         const std::string text = rendering(random);
         const double want = std::strtod(text.c_str(), nullptr);
         double got = 0;

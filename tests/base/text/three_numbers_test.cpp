@@ -8,6 +8,7 @@
 
 #include "base/text/lines.hpp"
 #include "base/text/number.hpp"
+#include "tests/support/rounds.hpp"
 
 using namespace actformer;
 
@@ -63,7 +64,7 @@ void expect_same(const Way& way, const std::string& line, const Point& values) {
 
 TEST(ThreeNumbers, AreReadInEveryLengthAndPlace) {
     std::mt19937 random(1);
-    for (int round = 0; round < 50000; ++round) {
+    for (int round = 0; round < test::rounds(50000); ++round) {
         std::string line(round % 7 == 0 ? random() % 5 : 0, ' ');
         for (int i = 0; i < 3; ++i)
             line += random_number(random, 1 + static_cast<int>(random() % 8)) +
@@ -81,7 +82,7 @@ TEST(ThreeNumbers, AreReadRightOrNotAtAllWhateverTheText) {
     std::mt19937 random(2);
     const std::string characters = "0123456789.- \te+,\xB2";
     int taken = 0;
-    for (int round = 0; round < 400000; ++round) {
+    for (int round = 0; round < test::rounds(400000); ++round) {
         std::string line;
         for (int i = 0; i < 3; ++i) line += random_number(random, static_cast<int>(random() % 18)) + " ";
         line += "1 2 3";
@@ -94,7 +95,7 @@ TEST(ThreeNumbers, AreReadRightOrNotAtAllWhateverTheText) {
             expect_same(way, line, values);
         }
     }
-    EXPECT_GT(taken, 10000);
+    EXPECT_GT(taken, test::rounds(10000));
 }
 
 TEST(ThreeNumbers, MustEndWithinTheCharacters) {
