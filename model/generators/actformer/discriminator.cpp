@@ -76,7 +76,8 @@ at::Tensor Discriminator::node_bias(std::size_t i) const {
 }
 
 at::Tensor Discriminator::fused_features(const at::Tensor& motion) const {
-    auto x = fused_motion_input(motion.contiguous(), convolutions_[0].padding);
+    auto x = padded_differences(motion, convolutions_[0].padding, true, settings_.differences,
+                                settings_.difference_gain);
     std::int64_t frames = motion.size(2);
     for (std::size_t i = 0; i < convolutions_.size(); ++i) {
         const auto& conv = convolutions_[i];
