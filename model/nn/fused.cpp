@@ -378,6 +378,10 @@ at::Tensor fused_motion_input(const at::Tensor& motion, std::int64_t padding) {
 at::Tensor fused_node_convolution(const at::Tensor& x, const at::Tensor& weight, const at::Tensor& bias,
                                   const cpu::NodeShape& shape, std::shared_ptr<const cpu::NodeSums> sums,
                                   double leak) {
+    TORCH_CHECK(x.dim() == 4 && x.size(1) == shape.in_nodes && x.size(2) == shape.padded_frames() &&
+                    x.size(3) == shape.in,
+                "a graph convolution of ", shape.in_nodes, " nodes, ", shape.padded_frames(), " frames and ",
+                shape.in, " channels was given ", x.sizes());
     return NodeConvolve::apply(x, weight, bias.defined() ? bias : at::empty({0}, x.options()),
                                c10::make_intrusive<NodeLayer>(shape, std::move(sums), leak));
 }

@@ -18,7 +18,9 @@ enum class Begin {
     zeros,
     ones,
     tiling,  ///< (frames, persons, width): a normal table over frames beside one over persons, deviation `reach`
-    sinusoids  ///< the same of sines and cosines
+    sinusoids,        ///< the same of sines and cosines
+    frame_sinusoids,  ///< its table over frames alone, (frames, width)
+    person_sinusoids  ///< its table over persons alone, (persons, width)
 };
 
 struct NetworkWeight {

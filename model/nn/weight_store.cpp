@@ -35,10 +35,14 @@ at::Tensor tiled(const at::Tensor& frames, const at::Tensor& persons) {
                    2);
 }
 
+/// Behind the class token, first of all, which has no place in time.
+at::Tensor frame_sinusoids(std::int64_t tokens, std::int64_t width) {
+    return at::cat({at::zeros({1, width}, at::kDouble), sinusoids(tokens - 1, width)});
+}
+
 at::Tensor sinusoid_table(const std::vector<std::int64_t>& shape) {
     const auto half = shape[1] > 1 ? shape[2] / 2 : shape[2];
-    // The class token, first of all, has no place in time.
-    const auto frames = at::cat({at::zeros({1, half}, at::kDouble), sinusoids(shape[0] - 1, half)});
+    const auto frames = frame_sinusoids(shape[0], half);
     auto persons = sinusoids(shape[1], shape[2] - half);
     auto table = tiled(frames, persons);
     table[0].zero_();
@@ -68,6 +72,10 @@ at::Tensor started(const NetworkWeight& weight, at::Generator& random) {
         }
         case Begin::sinusoids:
             return sinusoid_table(weight.shape);
+        case Begin::frame_sinusoids:
+            return frame_sinusoids(weight.shape[0], weight.shape[1]);
+        case Begin::person_sinusoids:
+            return sinusoids(weight.shape[0], weight.shape[1]);
         case Begin::ones:
             return at::ones(weight.shape, at::kDouble);
         case Begin::zeros:

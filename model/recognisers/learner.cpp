@@ -6,7 +6,7 @@ namespace actformer::model {
 
 RecogniserLearner::RecogniserLearner(const RecogniserSettings& settings,
                                      std::unique_ptr<RecogniserNetwork> network, std::size_t classes,
-                                     const LearnerSetup& setup)
+                                     Augmentation augmentation, const LearnerSetup& setup)
     : settings_(settings),
       device_(setup.device),
       table_(setup.clips.table()),
@@ -14,6 +14,7 @@ RecogniserLearner::RecogniserLearner(const RecogniserSettings& settings,
       network_(std::move(network)),
       feed_(setup.clips, {settings.seed, kernels::ClassSampling::plain, true}, settings.batch,
             settings.frames),
+      augmentation_(std::move(augmentation)),
       sums_(at::zeros({2}, at::TensorOptions(at::kDouble).device(device_))) {}
 
 at::Tensor RecogniserLearner::values_of(const Windows& windows) const {
@@ -26,7 +27,8 @@ void RecogniserLearner::step(std::uint64_t step, double rate_share) {
     rate_ = settings_.rate * rate_share;
     const auto windows = feed_.batch(step);
     const auto labels = labels_of(windows, device_);
-    const auto logits = network_->train_logits(values_of(windows), step_seed(settings_.seed, step));
+    const auto seed = step_seed(settings_.seed, step);
+    const auto logits = network_->train_logits(augmentation_(values_of(windows), seed), seed);
     const auto loss = at::cross_entropy_loss(logits, labels);
     loss.backward();
     network_->descend(rate_);

@@ -3,6 +3,7 @@
 
 #include "eval/metrics/confusion.hpp"
 #include "model/recognisers/network.hpp"
+#include "model/train/augmentation.hpp"
 #include "model/train/scorer.hpp"
 #include "model/train/window_feed.hpp"
 
@@ -11,7 +12,7 @@ namespace actformer::model {
 class RecogniserLearner : public Learner {
   public:
     RecogniserLearner(const RecogniserSettings& settings, std::unique_ptr<RecogniserNetwork> network,
-                      std::size_t classes, const LearnerSetup& setup);
+                      std::size_t classes, Augmentation augmentation, const LearnerSetup& setup);
 
     std::uint64_t windows_a_step() const override { return settings_.batch; }
     void step(std::uint64_t step, double rate_share) override;
@@ -37,8 +38,9 @@ class RecogniserLearner : public Learner {
     std::size_t classes_;
     std::unique_ptr<RecogniserNetwork> network_;
     RandomFeed feed_;
-    double rate_ = 0;  ///< of the last step
-    at::Tensor sums_;  ///< [loss, windows recognised]
+    Augmentation augmentation_;  ///< of the windows to learn from
+    double rate_ = 0;            ///< of the last step
+    at::Tensor sums_;            ///< [loss, windows recognised]
 };
 
 class TestSplitScorer : public Scorer {

@@ -52,6 +52,7 @@ const KeyTable<RecogniserSettings>& table() {
         add_optimiser_keys(keys);
         keys.add(&RecogniserSettings::test_split,
                  {.name = "test_split", .meaning = "clips to score after every epoch; empty scores none"});
+        add_augmentation_keys(keys);
         add_trainer_keys(keys);
         return keys;
     }();
@@ -89,6 +90,7 @@ const KeyTable<GruPresets>& gru_table() {
                                            .most = 1})
             .add(&Settings::test_split,
                  {.name = "test_split", .meaning = "clips to score after every epoch; empty scores none"});
+        add_augmentation_keys(keys);
         add_trainer_keys(keys);
         return keys;
     }();

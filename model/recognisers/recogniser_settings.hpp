@@ -8,6 +8,7 @@
 #include "ingest/dataset/common_joints.hpp"
 #include "model/recognisers/gru.hpp"
 #include "model/recognisers/stgcn.hpp"
+#include "model/train/augmentation_settings.hpp"
 #include "model/train/trainer_settings.hpp"
 
 namespace actformer::model {
@@ -16,7 +17,7 @@ enum class RecogniserKind { stgcn, gru };
 
 /// Of the public ST-GCN and its training. The GRU classifier, whose width is fixed, moves by Adam and has no use for width, dropout,
 /// momentum and nesterov.
-struct RecogniserSettings : TrainerSettings {
+struct RecogniserSettings : TrainerSettings, AugmentationSettings {
     RecogniserSettings() {
         epochs = 80;
         rate_drops = {10, 50};

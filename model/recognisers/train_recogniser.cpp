@@ -80,7 +80,10 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
         test_clips = ingest::load_view(opencl, dataset, settings.test_split, joints).store;
     const Processes alone;
     const LearnerSetup setup{clips, torch_device(settings.device), alone};
-    RecogniserLearner learner(settings, std::move(trainee.network), header.classes.size(), setup);
+    RecogniserLearner learner(settings, std::move(trainee.network), header.classes.size(),
+                              Augmentation(settings, ingest::representation_of(dataset, joints),
+                                           ingest::topology_of(dataset, joints), dataset.folder().string()),
+                              setup);
     std::optional<TestSplitScorer> scorer;
     if (test_clips) scorer.emplace(settings.test_split, *test_clips);
     const TrainingTask task{config.model(), config, settings, dataset,

@@ -56,7 +56,7 @@ at::Tensor Discriminator::convolved(const at::Tensor& x, std::size_t i) const {
 /// (N, features) of motions (N, C, T, K).
 at::Tensor Discriminator::features(const at::Tensor& motion) const {
     if (takes_fused_path(motion)) return fused_features(motion);
-    auto x = with_differences(motion).transpose(2, 3);
+    auto x = with_differences(motion, settings_.differences, settings_.difference_gain).transpose(2, 3);
     for (std::size_t i = 0; i < convolutions_.size(); ++i) x = convolved(x, i);
     const auto last = weights_.normalised("last.weight", is_training()).permute({0, 3, 1, 2});
     x = at::conv2d(x, last, weights_.at("last.bias"), at::IntArrayRef{1, 2},
@@ -76,7 +76,8 @@ at::Tensor Discriminator::node_bias(std::size_t i) const {
 }
 
 at::Tensor Discriminator::fused_features(const at::Tensor& motion) const {
-    auto x = fused_motion_input(motion.contiguous(), convolutions_[0].padding);
+    auto x = padded_differences(motion, convolutions_[0].padding, true, settings_.differences,
+                                settings_.difference_gain);
     std::int64_t frames = motion.size(2);
     for (std::size_t i = 0; i < convolutions_.size(); ++i) {
         const auto& conv = convolutions_[i];

@@ -36,15 +36,17 @@ class List {
 
 void add_positions(List& list, const GeneratorSettings& s) {
     const std::int64_t tokens = s.frames + 1, persons = s.tokens_a_frame(), width = s.width;
+    const bool trained = s.positions != Positions::fixed;
+    const bool smooth = !trained || s.positions_start == PositionsStart::sinusoids;
     const auto table = [&](const char* name, std::vector<std::int64_t> shape, Begin begin) {
-        list.add({name, std::move(shape), begin, position_deviation, false, 0, begin != Begin::sinusoids});
+        list.add({name, std::move(shape), begin, position_deviation, false, 0, trained});
     };
     if (s.positions == Positions::concat && persons > 1) {
-        table("frame_positions", {tokens, width / 2}, Begin::normal);
-        table("person_positions", {persons, width / 2}, Begin::normal);
+        table("frame_positions", {tokens, width / 2}, smooth ? Begin::frame_sinusoids : Begin::normal);
+        table("person_positions", {persons, width / 2}, smooth ? Begin::person_sinusoids : Begin::normal);
         return;
     }
-    const auto begin = s.positions == Positions::fixed                  ? Begin::sinusoids
+    const auto begin = smooth                                           ? Begin::sinusoids
                        : s.positions == Positions::tiled && persons > 1 ? Begin::tiling
                                                                         : Begin::normal;
     table("positions", {tokens, persons, width}, begin);
@@ -121,7 +123,8 @@ std::vector<NodeConvolution> node_convolutions(const DiscriminatorSettings& s) {
     const auto levels = skeleton_levels(s.parents);
     const auto seen = s.persons_in == PersonsInD::concat ? s.persons : 1;
     const auto c = s.width;
-    return {{2 * seen * s.numbers, c, 5, 1, 2, true, hop_matrix(levels.fine, all_nodes(levels.fine))},
+    return {{(1 + s.differences) * seen * s.numbers, c, 5, 1, 2, true,
+             hop_matrix(levels.fine, all_nodes(levels.fine))},
             {c, 2 * c, 4, 2, 1, false, hop_matrix(levels.fine, levels.middle_kept)},
             {2 * c, 4 * c, 4, 2, 1, false, hop_matrix(levels.middle, levels.coarse_kept)},
             {4 * c, 8 * c, 4, 2, 1, false, hop_matrix(levels.coarse, all_nodes(levels.coarse))}};

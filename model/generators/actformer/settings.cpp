@@ -13,6 +13,7 @@ namespace {
 /// The names of an enumeration's values, in their order.
 const std::vector<std::string> prior_names{"gp", "gaussian"};
 const std::vector<std::string> position_names{"concat", "tiled", "independent", "fixed"};
+const std::vector<std::string> start_names{"normal", "sinusoids"};
 const std::vector<std::string> interaction_names{"iformer", "concat"};
 const std::vector<std::string> body_names{"transformer", "graphconv"};
 const std::vector<std::string> persons_names{"concat", "avgpool", "maxpool", "selfatt"};
@@ -75,11 +76,17 @@ std::vector<Key> network_keys() {
         {"shared_z", true, "one draw of the prior for all persons"},
         {"pe", std::string("tiled"), "positions: concat [frames, persons], tiled, independent or fixed", 0, 0,
          position_names},
+        {"pe_start", std::string("normal"),
+         "trained positions begin at: normal (deviation 0.02) or sinusoids", 0, 0, start_names},
         {"interaction", std::string("iformer"), "between persons: iformer, or concat for one token", 0, 0,
          interaction_names},
         {"body", std::string("transformer"), "from token to pose: transformer (linear) or graphconv", 0, 0,
          body_names},
         {"d_width", Number{32}, "channels of the discriminator's first layer", 1, 1024},
+        {"d_differences", Number{1},
+         "over frames, that the discriminator sees: 1 velocities, 2 accelerations too", 1, 2},
+        {"d_gain", 1.0, "times the differences that the discriminator sees (its square times accelerations)",
+         0.01, 100},
         {"d_persons", std::string("concat"), "persons in the discriminator: concat, or pooled features", 0, 0,
          persons_names}};
 }
@@ -103,6 +110,7 @@ GeneratorSettings generator_settings(const Config& config, ingest::Representatio
     s.prior.length_scale = config.get<double>("length_scale");
     s.prior.streams = config.get<bool>("shared_z") ? 1 : persons;
     s.positions = named<Positions>(config, "pe", position_names);
+    s.positions_start = named<PositionsStart>(config, "pe_start", start_names);
     s.interaction = named<Interaction>(config, "interaction", interaction_names);
     s.body = named<Body>(config, "body", body_names);
     check(s);
@@ -119,6 +127,8 @@ DiscriminatorSettings discriminator_settings(const Config& config, ingest::Repre
     s.classes = static_cast<std::uint32_t>(classes);
     s.numbers = representation.numbers();
     s.width = whole(config, "d_width");
+    s.differences = whole(config, "d_differences");
+    s.difference_gain = config.get<double>("d_gain");
     s.persons_in = named<PersonsInD>(config, "d_persons", persons_names);
     check(s);
     return s;

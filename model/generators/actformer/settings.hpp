@@ -18,6 +18,11 @@ enum class Positions {
     fixed         ///< sinusoids, [over frames, over persons]; not trained
 };
 
+enum class PositionsStart {
+    normal,    ///< of deviation 0.02, as in the public tools
+    sinusoids  ///< those of `fixed`: neighbouring frames are alike from the first step on
+};
+
 enum class Interaction {
     iformer,  ///< attention over the persons of a frame, before every attention over frames
     concat    ///< one token a frame for all persons; the persons part in the last layer
@@ -37,6 +42,7 @@ struct GeneratorSettings {
     double mlp_ratio = 2;
     PriorSettings prior;
     Positions positions = Positions::tiled;
+    PositionsStart positions_start = PositionsStart::normal;  ///< of tables that are trained
     Interaction interaction = Interaction::iformer;
     Body body = Body::transformer;
 
@@ -60,6 +66,9 @@ struct DiscriminatorSettings {
     std::uint32_t persons = 1, classes = 0;
     std::uint32_t numbers = 3;  ///< of a node
     std::uint32_t width = 32;   ///< channels of the first layer; each of the four behind it doubles them
+    std::uint32_t differences =
+        1;  ///< the highest differences over frames behind the channels: 1 velocities, 2 accelerations too
+    double difference_gain = 1;  ///< times the first differences, its square times the second
     PersonsInD persons_in = PersonsInD::concat;
 
     std::uint32_t nodes() const { return static_cast<std::uint32_t>(parents.size()); }

@@ -17,12 +17,13 @@ at::Tensor discriminator_loss(Loss loss, const at::Tensor& real, const at::Tenso
 }  // namespace
 
 Gan::Gan(const GanSettings& settings, GanNetworks networks, const at::Device& device,
-         const Processes& processes)
+         const Processes& processes, Augmentation augmentation)
     : settings_(settings),
       device_(device),
       processes_(processes),
       networks_(std::move(networks)),
       prior_(networks_.generator->prior(), step_seed(settings.seed, latents_part)),
+      augmentation_(std::move(augmentation)),
       generator_parameters_(networks_.generator->parameters(), 1),
       discriminator_parameters_(networks_.discriminator->parameters(), 3),
       generator_adam_(generator_parameters_, settings.generator_adam()),
@@ -43,6 +44,13 @@ at::Tensor Gan::fake(const at::Tensor& latent, const at::Tensor& labels) {
     return networks_.generator->generate(latent, labels, settings_.frames);
 }
 
+/// Every process augments its motions in its own way.
+at::Tensor Gan::augmented(const at::Tensor& motion, std::uint64_t draw) const {
+    const auto seed = step_seed(settings_.seed, augmentation_part);
+    return augmentation_(motion, step_seed(seed, draw * static_cast<std::uint64_t>(processes_.place().size) +
+                                                     static_cast<std::uint64_t>(processes_.place().rank)));
+}
+
 void Gan::step_discriminator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw) {
     const auto z = latent(labels, draw);
     discriminator_parameters_.zero_gradients();
@@ -53,8 +61,8 @@ void Gan::step_discriminator(const at::Tensor& real, const at::Tensor& labels, s
             const at::NoGradGuard no_gradients;
             fake = this->fake(z, labels).to(at::kFloat);
         }
-        scores =
-            networks_.discriminator->forward(at::cat({real, fake}), at::cat({labels, labels})).to(at::kFloat);
+        const auto seen = augmented(at::cat({real, fake}), draw);
+        scores = networks_.discriminator->forward(seen, at::cat({labels, labels})).to(at::kFloat);
     }
     const auto of = scores.chunk(2);
     const auto loss = discriminator_loss(settings_.loss, of[0], of[1]);
@@ -73,7 +81,7 @@ void Gan::step_generator(const at::Tensor& labels, std::uint64_t draw) {
     at::Tensor scores;
     {
         const Autocast reduced(settings_.bf16);
-        scores = networks_.discriminator->forward(fake(z, labels), labels).to(at::kFloat);
+        scores = networks_.discriminator->forward(augmented(fake(z, labels), draw), labels).to(at::kFloat);
     }
     const auto loss = -scores.mean();
     loss.backward();

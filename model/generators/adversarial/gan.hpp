@@ -11,15 +11,17 @@
 #include "model/generators/adversarial/prior.hpp"
 #include "model/nn/adam.hpp"
 #include "model/nn/array.hpp"
+#include "model/train/augmentation.hpp"
 #include "model/train/processes.hpp"
 
 namespace actformer::model {
 
 class Gan {
   public:
-    /// Networks on `device`. `processes` must outlive it. Every process begins with the weights of rank 0.
+    /// Networks on `device`. `processes` must outlive it. Every process begins with the weights of rank 0. The discriminator sees real
+    /// and fake motions through `augmentation`.
     Gan(const GanSettings& settings, GanNetworks networks, const at::Device& device,
-        const Processes& processes);
+        const Processes& processes, Augmentation augmentation = {});
 
     /// One step of the discriminator: real (batch, P*D, T, K) against as many fake motions of the same labels (batch) int64. What is drawn is a function of the seed and `draw`.
     void step_discriminator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw);
@@ -51,12 +53,14 @@ class Gan {
     at::Tensor fake(const at::Tensor& latent, const at::Tensor& labels);
     at::Tensor latent(const at::Tensor& labels, std::uint64_t draw);
     std::vector<at::Tensor> optimiser_state();
+    at::Tensor augmented(const at::Tensor& motion, std::uint64_t draw) const;
 
     GanSettings settings_;
     at::Device device_;
     const Processes& processes_;
     GanNetworks networks_;
     Prior prior_;
+    Augmentation augmentation_;
     FlatParameters generator_parameters_, discriminator_parameters_;
     std::optional<FlatParameters> ema_parameters_;  ///< where an EMA is kept
     Adam generator_adam_, discriminator_adam_;

@@ -1,5 +1,7 @@
 #include "model/generators/adversarial/gan_settings.hpp"
 
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "model/train/key_table.hpp"
 
@@ -36,6 +38,7 @@ const KeyTable<GanSettings>& table() {
                   .most = 0.999999})
             .add(&Settings::bf16,
                  {.name = "bf16", .meaning = "on CUDA: matrix products and convolutions in bfloat16"});
+        add_augmentation_keys(keys);
         return keys;
     }();
     return all;
@@ -51,6 +54,10 @@ GanSettings gan_settings(const Config& config) {
     auto settings = table().read(config);
     settings.frames = static_cast<std::uint32_t>(config.get<std::int64_t>("frames"));
     settings.seed = static_cast<std::uint64_t>(config.get<std::int64_t>("seed"));
+    if (settings.mirror >= 0.5 || settings.turn >= 1)
+        throw Error("{}: {} leaves nothing to tell how motions were recorded; less than {} does",
+                    settings.mirror >= 0.5 ? "mirror" : "turn", std::max(settings.mirror, settings.turn),
+                    settings.mirror >= 0.5 ? 0.5 : 1.0);
     const auto& device = config.get<std::string>("device");
     if (settings.bf16 && !device.starts_with("cuda"))
         throw Error("bf16: true is for CUDA; with device: {}, leave it out", device);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/nn/adam_settings.hpp"
+#include "model/train/augmentation_settings.hpp"
 #include "model/train/config.hpp"
 
 namespace actformer::model {
@@ -14,7 +15,7 @@ enum class Loss {
     hinge         ///< D: mean max(0, 1 - D(real)) + mean max(0, 1 + D(fake)); G the same
 };
 
-struct GanSettings {
+struct GanSettings : AugmentationSettings {
     std::uint32_t frames = 60;
     std::uint64_t seed = 0;
     std::uint32_t discriminator_steps = 4;  ///< a generator's step

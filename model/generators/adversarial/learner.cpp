@@ -27,7 +27,8 @@ GanLearner::GanLearner(const Config& config, const MotionSpec& spec, GanNetworks
       batch_(batch_of(config)),
       device_(setup.device),
       feed_(setup.clips, sampling(config, setup.processes.place()), batch_, settings_.frames),
-      gan_(settings_, std::move(networks), setup.device, setup.processes) {}
+      gan_(settings_, std::move(networks), setup.device, setup.processes,
+           Augmentation(settings_, spec.representation, spec.topology, spec.where)) {}
 
 std::uint64_t GanLearner::windows_a_step() const {
     return std::uint64_t{batch_} * settings_.discriminator_steps;

@@ -5,15 +5,6 @@
 #include "model/generators/graph/motion_input.hpp"
 
 namespace actformer::model {
-namespace {
-
-/// Motions and their differences over time as the first layer takes them, (N, K, padding + T + padding, 2C).
-at::Tensor input(const at::Tensor& motion, std::int64_t padding, bool fused) {
-    if (fused) return fused_motion_input(motion.contiguous(), padding);
-    return at::constant_pad_nd(with_differences(motion).permute({0, 3, 2, 1}), {0, 0, padding, padding});
-}
-
-}  // namespace
 
 CsgnDiscriminator::CsgnDiscriminator(CsgnSettings settings, std::uint64_t seed, at::ScalarType type)
     : settings_(checked(std::move(settings))),
@@ -31,7 +22,7 @@ at::Tensor CsgnDiscriminator::features(const at::Tensor& motion) const {
     };
     const auto n = motion.size(0);
     auto frames = motion.size(2);
-    auto x = input(motion, layers_.levels.front().padding, fused);
+    auto x = padded_differences(motion, layers_.levels.front().padding, fused);
     for (std::size_t i = 0; i < layers_.levels.size(); ++i) {
         const auto& level = layers_.levels[i];
         const auto& next = i + 1 < layers_.levels.size() ? layers_.levels[i + 1] : layers_.last;

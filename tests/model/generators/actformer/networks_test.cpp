@@ -102,6 +102,15 @@ std::vector<Networks> switched() {
         n.g.body = Body::graphconv;
         n.g.representation = ingest::Representation::rot6d;
     });
+    add(2, [](Networks& n) {
+        n.g.positions_start = PositionsStart::sinusoids;
+        n.d.differences = 2;
+        n.d.difference_gain = 3;
+    });
+    add(2, [](Networks& n) {
+        n.g.positions = Positions::concat;
+        n.g.positions_start = PositionsStart::sinusoids;
+    });
     return all;
 }
 
@@ -184,6 +193,26 @@ TEST_F(ActformerNetworks, StartAlikeForASeedAndNotForAnother) {
     }
     const auto classes = one.named_parameters()["classes.weight"];
     expect_near(classes.mm(classes.t()), at::eye(5), 1e-6);  // orthogonal
+}
+
+TEST_F(ActformerNetworks, LearntPositionsMayBeginAtTheFixedOnes) {
+    for (const auto persons : {1U, 2U}) {
+        auto settings = tiny_generator(persons);
+        settings.positions = Positions::fixed;
+        const auto fixed = Generator(settings, 1).named_buffers()["positions"].clone();
+        settings.positions_start = PositionsStart::sinusoids;
+        settings.positions = Positions::tiled;
+        EXPECT_TRUE(Generator(settings, 1).named_parameters()["positions"].equal(fixed)) << persons;
+    }
+    auto settings = tiny_generator(2);
+    settings.positions = Positions::fixed;
+    const auto fixed = Generator(settings, 1).named_buffers()["positions"].clone();  // (T + 1, P, W)
+    settings.positions = Positions::concat;
+    settings.positions_start = PositionsStart::sinusoids;
+    const Generator parted(settings, 1);
+    const auto half = std::int64_t{settings.width} / 2;
+    EXPECT_TRUE(parted.named_parameters()["frame_positions"].equal(fixed.select(1, 0).slice(1, 0, half)));
+    EXPECT_TRUE(parted.named_parameters()["person_positions"].equal(fixed[1].slice(1, half)));
 }
 
 TEST_F(ActformerNetworks, BothPathsAgreeForwardAndBack) {
@@ -357,6 +386,8 @@ TEST_F(ActformerNetworks, AgreeWithNumPy) {
             {"depth", gs.depth},
             {"interaction", interactions[static_cast<int>(gs.interaction)]},
             {"body", bodies[static_cast<int>(gs.body)]},
+            {"differences", ds.differences},
+            {"gain", ds.difference_gain},
             {"d_persons", persons_in[static_cast<int>(ds.persons_in)]},
             {"middle",
              is_ntu ? std::vector<std::uint32_t>{0, 3, 5, 7, 9, 11, 13, 15, 17, 19, 20} : levels.middle_kept},

@@ -193,9 +193,10 @@ def convolve(x, w, stride, pad):
 
 def features(case, net, motion):
     """motion (C, T, K) -> (features)"""
-    moved = np.zeros_like(motion)
+    moved, sped_up = np.zeros_like(motion), np.zeros_like(motion)
     moved[:, 1:] = motion[:, 1:] - motion[:, :-1]
-    x = np.concatenate((motion, moved)).transpose(2, 1, 0)          # (K, T, C)
+    sped_up[:, 2:] = motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]
+    x = np.concatenate((motion, case['gain'] * moved, case['gain'] ** 2 * sped_up)[:1 + case['differences']]).transpose(2, 1, 0)          # (K, T, C)
     fine, middle, coarse = levels(case)
     sums = [matrices(fine, range(len(fine))), matrices(fine, case['middle']), matrices(middle, case['coarse']),
             matrices(coarse, range(len(coarse)))]

@@ -7,7 +7,10 @@
 
 #include "base/error.hpp"
 #include "model/generators/actformer/layers.hpp"
+#include "model/generators/adversarial/gan_settings.hpp"
+#include "model/generators/generator_settings.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
@@ -23,6 +26,14 @@ Config with(const std::vector<std::string>& assignments) {
     Config config("actformer", network_keys());
     for (const auto& assignment : assignments) config.override_with(assignment);
     return config;
+}
+
+/// All keys that an ActFormer's configuration may have.
+Config whole_config() {
+    auto keys = network_keys();
+    for (auto& key : gan_keys()) keys.push_back(std::move(key));
+    for (auto& key : generator_keys()) keys.push_back(std::move(key));
+    return {"actformer", keys};
 }
 
 void expect_refused(const std::vector<std::string>& assignments, std::uint32_t persons, std::size_t classes,
@@ -97,4 +108,27 @@ TEST(ModelCommand, TakesEveryGeneratorConfiguration) {
     const auto refused = run_actformer("model " + configs + "actformer-ntu-2p.yaml heads=9");
     EXPECT_EQ(refused.exit, 1);
     EXPECT_EQ(lines_in(refused.output), 1) << refused.output;
+}
+
+TEST(GeneratorSettings, SwitchesThatThePaperDoesNotHaveAreOffInItsConfigurations) {
+    for (const auto* name : {"actformer.yaml", "actformer-ntu-1p.yaml", "actformer-ntu-2p.yaml"}) {
+        auto config = whole_config();
+        config.load(configs + name);
+        EXPECT_EQ(config.get<std::string>("pe_start"), "normal") << name;
+        EXPECT_EQ(config.get<std::int64_t>("d_differences"), 1) << name;
+        EXPECT_EQ(config.get<double>("d_gain"), 1) << name;
+        EXPECT_EQ(config.get<std::int64_t>("discriminator_steps"), 4) << name;
+        const auto gan = gan_settings(config);
+        EXPECT_EQ(gan.mirror, 0) << name;
+        EXPECT_EQ(gan.turn, 0) << name;
+    }
+}
+
+TEST(GeneratorSettings, RefuseAugmentationThatHidesWhatWasRecorded) {
+    for (const auto& [assignment, words] : std::vector<std::pair<std::string, std::string>>{
+             {"mirror=0.5", "mirror: 0.5 leaves nothing"}, {"turn=1", "turn: 1 leaves nothing"}}) {
+        auto config = whole_config();
+        config.override_with(assignment);
+        EXPECT_NE(error_of([&] { gan_settings(config); }).find(words), std::string::npos) << assignment;
+    }
 }

@@ -1,0 +1,83 @@
+#include "ingest/dataset/mirror.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/error.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+bool upper(char c) {
+    return std::isupper(static_cast<unsigned char>(c)) != 0;
+}
+
+bool letter(char c) {
+    return std::isalpha(static_cast<unsigned char>(c)) != 0;
+}
+
+/// The words of a joint's name in small letters: "LHipJoint", "l_hip joint" and "LeftHipJoint" have three.
+std::vector<std::string> words_of(const std::string& name) {
+    std::vector<std::string> words;
+    bool inside = false;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const char c = name[i];
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0) {
+            inside = false;
+            continue;
+        }
+        const bool hump =
+            upper(c) && inside &&
+            (!upper(name[i - 1]) || (i + 1 < name.size() && letter(name[i + 1]) && !upper(name[i + 1])));
+        if (!inside || hump) words.emplace_back();
+        words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        inside = true;
+    }
+    return words;
+}
+
+/// The words with left and right exchanged.
+std::vector<std::string> exchanged(std::vector<std::string> words) {
+    static const std::vector<std::pair<std::string, std::string>> sides{{"left", "right"}, {"l", "r"}};
+    for (auto& word : words)
+        for (const auto& [left, right] : sides) {
+            if (word == left) {
+                word = right;
+                break;
+            }
+            if (word == right) {
+                word = left;
+                break;
+            }
+        }
+    return words;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> other_side(const Topology& topology, const std::string& where) {
+    std::vector<std::vector<std::string>> words;
+    for (const auto& name : topology.names) words.push_back(words_of(name));
+    std::vector<std::uint32_t> other;
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        const auto found = std::ranges::find(words, exchanged(words[k]));
+        if (found == words.end())
+            throw Error("{}: joint '{}' has no counterpart on the other side; leave out mirror", where,
+                        topology.names[k]);
+        other.push_back(static_cast<std::uint32_t>(found - words.begin()));
+    }
+    bool sides = false;
+    for (std::uint32_t k = 0; k < other.size(); ++k) {
+        sides |= other[k] != k;
+        const int parent = topology.parents[k];
+        const int expected = parent < 0 ? -1 : static_cast<int>(other[static_cast<std::size_t>(parent)]);
+        if (topology.parents[other[k]] != expected)
+            throw Error(
+                "{}: joints '{}' and '{}' do not hang on joints that mirror each other; leave out mirror",
+                where, topology.names[k], topology.names[other[k]]);
+    }
+    if (!sides) throw Error("{}: no joint's name tells left from right; leave out mirror", where);
+    return other;
+}
+
+}  // namespace actformer::ingest
