@@ -104,12 +104,13 @@ struct FailingWrites : testing::Test {
         SCOPED_TRACE(fmt::format("{}, call {}{}", writing.name, call, on ? " and all behind it" : ""));
         const auto out = fresh();
         const auto ran = run(writing, out, call, on);
-        if (ran.result.exit == 0)
+        if (ran.result.exit == 0) {
             EXPECT_TRUE(compared(writing, out) == right)
                 << "exit 0 with other files: " << names(compared(writing, out)) << "\n"
                 << ran.result.output;
-        else
+        } else {
             check_failed(writing, ran, out, right);
+        }
         for (const auto& [name, bytes] : tree(out))
             if (writing.after == AfterFailure::nothing || ran.result.exit == 0)
                 EXPECT_EQ(name.find(".partial"), std::string::npos) << "left over: " << name;
