@@ -1,5 +1,7 @@
 #include "reports/sweep/sweep_file.hpp"
 
+#include <yaml-cpp/depthguard.h>
+
 #include <algorithm>
 #include <set>
 
