@@ -25,6 +25,7 @@ struct ExportContext {
     std::vector<Point> pose;            ///< the rest pose of skeletons, as skeletons_of takes it
     std::string source;                 ///< fingerprint of what the clips come from
     std::optional<SmplBody> body = {};  ///< of a skin; only of formats that take one
+    bool force = false;                 ///< files of others are replaced
 };
 
 /// A file in the making, or for some formats a file a person. Nothing is left of it without finish().
