@@ -126,8 +126,7 @@ void SweepJobs::check_trainings(std::vector<Job>& jobs) {
     const Scratch folder("check");
     const auto file = (folder.path() / "trainings.json").string();
     write_whole(file, asked.dump());
-    const auto answer = output_of(
-        command_line({(program_folder() / "actformer").string(), "train", "check", file}) + " 2>/dev/null");
+    const auto answer = output_of({(program_folder() / "actformer").string(), "train", "check", file});
     if (!answer) return;
     const auto problems = nlohmann::json::parse(*answer);
     for (std::size_t i = 0; i < trainings.size(); ++i)
