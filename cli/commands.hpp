@@ -20,6 +20,7 @@ void add_bench(CLI::App& app);
 void add_train(CLI::App& app);
 void add_train_recogniser(CLI::App& train);
 void add_train_generator(CLI::App& train);
+void add_check_trainings(CLI::App& train);
 void add_generate(CLI::App& app);
 void add_import(CLI::App& app);
 void add_model(CLI::App& app);

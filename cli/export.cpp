@@ -85,6 +85,7 @@ void add_export(CLI::App& app) {
         ->add_option("--body", request.body,
                      "SMPL's model file: its mean body as the skin of a .glb, on rotations of SMPL's joints")
         ->type_name("FILE");
+    command->add_flag("--force", request.force, "Replace files that this program did not write");
     command->add_flag("--json", options->json, "Print JSON");
     examples(
         command,

@@ -8,6 +8,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "ingest/export/foreign.hpp"
 #include "model/generators/generate.hpp"
 
 namespace actformer::cli {
@@ -15,10 +16,11 @@ namespace {
 
 struct GenerateOptions {
     model::GenerateRequest request;
-    bool json = false;
+    bool force = false, json = false;
 };
 
 void run(const GenerateOptions& options) {
+    if (!options.force) ingest::refuse_foreign(options.request.out);
     Progress progress("generate", "motions", options.json);
     const auto made = model::generate(options.request, [&](std::uint64_t done, std::uint64_t all) {
         progress.update(static_cast<double>(done) / static_cast<double>(all), done);
@@ -67,6 +69,7 @@ void add_generate(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--threads", request.threads, "Processor threads (default: all)")
         ->check(CLI::Range(1U, most_threads));
+    command->add_flag("--force", options->force, "Replace a file that this program did not write");
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer generate --generator run -o generated.h5\n"

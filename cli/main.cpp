@@ -1,12 +1,20 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "base/error.hpp"
+#include "base/process/peer.hpp"
 #include "base/process/process.hpp"
+#include "cli/command_tree.hpp"
+#include "cli/completion.hpp"
+#include "cli/man_pages.hpp"
 #include "cli/program.hpp"
 
 namespace {
@@ -22,8 +30,12 @@ constexpr Subprogram subprograms[] = {
     {"import", "actformer-train", "Turn released PyTorch weights into weights of ours"},
     {"model", "actformer-train", "Print a configuration's layers, shapes and parameter counts"}};
 
+/// Beside this program where it was built, in libexec where it is installed.
 std::filesystem::path path_of(const Subprogram& sub) {
-    return actformer::program_folder() / sub.program;
+    const auto folder = actformer::program_folder();
+    auto beside = folder / sub.program;
+    return std::filesystem::exists(beside) ? beside
+                                           : folder.parent_path() / "libexec/actformer" / sub.program;
 }
 
 /// OpenMP's threads spin while they wait, and on a machine with other work starve it and one another: training runs two to
@@ -36,12 +48,10 @@ void wait_without_spinning() {
 int become(const Subprogram& sub, char** argv) {
     wait_without_spinning();
     ::execv(path_of(sub).c_str(), argv);
-    std::fprintf(
-        stderr,
-        "actformer: this build has no '%s': %s is not beside it (train, generate, import, model and score "
-        "--generator need "
-        "libtorch; see README)\n",
-        sub.command, sub.program);
+    const bool draws = std::string_view(sub.program) == "actformer-render";
+    std::fprintf(stderr, "actformer: '%s' is done by %s, which is not here: %s\n", sub.command, sub.program,
+                 draws ? "build it where OpenCV is installed (see README)"
+                       : "install the package actformer-train, or build with libtorch (see README)");
     return 1;
 }
 
@@ -63,13 +73,47 @@ bool asks_for_bench_train(int argc, char** argv) {
     return argc > 2 && std::string_view(argv[1]) == "bench" && std::string_view(argv[2]) == "train";
 }
 
+/// All commands, also those of the programs beside this one.
+actformer::cli::CommandHelp all_commands(const CLI::App& app) {
+    auto all = actformer::cli::help_of(app);
+    for (const char* program : {"actformer-render", "actformer-train"}) {
+        const auto path = path_of({"", program, ""});
+        if (!std::filesystem::exists(path)) continue;
+        const auto said = actformer::output_of({path.string(), "describe"});
+        if (!said) throw actformer::Error("{}: does not tell its commands; install it anew", path.string());
+        join(all, actformer::cli::command_from_json(nlohmann::ordered_json::parse(*said)));
+    }
+    return all;
+}
+
+/// Man pages and completions, made of what --help says.
+void add_documentation(CLI::App& app) {
+    using namespace actformer::cli;
+    auto* completions = app.add_subcommand("completion", "Print what a shell needs to complete commands");
+    const auto shell = std::make_shared<std::string>();
+    completions->add_option("shell", *shell, "bash, zsh or fish")->required()->check(CLI::IsMember(shells()));
+    examples(completions,
+             "  source <(actformer completion bash)\n"
+             "  source <(actformer completion zsh)\n"
+             "  actformer completion fish | source\n"
+             "An installed program needs none of this: shells find the scripts by themselves.\n");
+    completions->callback([&app, shell] { fmt::print("{}", completion(all_commands(app), *shell)); });
+
+    auto* man = app.add_subcommand("man", "Write a man page of every command")->group("");
+    const auto folder = std::make_shared<std::filesystem::path>();
+    man->add_option("-o,--out", *folder, "Folder to write them in")->required()->type_name("DIR");
+    man->callback([&app, folder] {
+        fmt::print("{}: {} pages\n", folder->string(), write_man_pages(all_commands(app), *folder));
+    });
+}
+
 /// Headings of the help, in the order of a project's life.
 void group_commands(CLI::App& app) {
     const std::pair<const char*, std::vector<std::string>> groups[] = {
         {"Data", {"synth", "ingest", "inspect", "export", "render"}},
         {"Networks", {"train", "model", "generate", "import", "features", "classify"}},
         {"Results", {"score", "sweep", "report"}},
-        {"This machine", {"devices", "bench"}}};
+        {"This machine", {"devices", "bench", "completion"}}};
     for (auto* command : app.get_subcommands([](CLI::App*) { return true; }))
         for (const auto& [heading, names] : groups)
             if (std::ranges::find(names, command->get_name()) != names.end()) command->group(heading);
@@ -99,6 +143,7 @@ int main(int argc, char** argv) {
             if (std::filesystem::exists(path_of(sub))) app.add_subcommand(sub.command, sub.description);
         add_devices(app);
         add_bench(app);
+        add_documentation(app);
         if (std::filesystem::exists(path_of(bench_train)))
             app.get_subcommand("bench")->add_subcommand("train", bench_train.description);
         group_commands(app);

@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"
+#include "cli/shipped_option.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "model/generators/method.hpp"
 #include "model/recognisers/recogniser_settings.hpp"
@@ -122,17 +123,22 @@ void add_model(CLI::App& app) {
     auto options = std::make_shared<ModelOptions>();
     auto* command =
         app.add_subcommand("model", "Print a configuration's layers, output shapes and parameter counts");
-    command->add_option("config", options->config, "Configuration, as in model/configs")
+    takes_shipped(
+        command->add_option("config", options->config,
+                            "Configuration: a file, or the name of one that comes with the program"),
+        "model/configs")
         ->required()
         ->type_name("CONFIG.yaml");
+    lists_shipped(command, "model/configs");
     command->add_option("--data", options->data, "Dataset whose joints, persons and classes to take")
         ->type_name("DATASET");
     command->add_option("overrides", options->overrides, "As in width=0.5")->type_name("KEY=VALUE");
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
-             "  actformer model model/configs/recogniser-ntu-1p.yaml\n"
-             "  actformer model model/configs/actformer-ntu-2p.yaml frames=64\n"
-             "  actformer model model/configs/recogniser-small.yaml --data bnr10 width=0.5\n");
+             "  actformer model                                        which configurations come with it\n"
+             "  actformer model recogniser-ntu-1p\n"
+             "  actformer model actformer-ntu-2p frames=64\n"
+             "  actformer model mine.yaml --data bnr10 width=0.5\n");
     command->callback([options] { run(*options); });
 }
 

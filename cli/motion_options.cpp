@@ -1,6 +1,7 @@
 #include "cli/motion_options.hpp"
 
 #include "base/error.hpp"
+#include "base/files/nearest_file.hpp"
 #include "eval/scoring/motions_file_source.hpp"
 #include "eval/scoring/windows_source.hpp"
 #include "ingest/dataset/dataset.hpp"
@@ -9,7 +10,8 @@ namespace actformer::cli {
 
 std::unique_ptr<eval::MotionSource> MotionOptions::open(kernels::Device& on,
                                                         const eval::FeatureExtractor& extractor) const {
-    if (!std::filesystem::exists(input)) throw Error("{}: no such file or folder", input.string());
+    if (!std::filesystem::exists(input))
+        throw Error("{}: no such file or folder{}", input.string(), did_you_mean(input));
     if (!std::filesystem::is_directory(input)) return eval::open_motions(input, {frames, batch, {}});
     const auto dataset = ingest::one_dataset_at(input);
     const auto joints = extractor.joints_of(eval::describe(ingest::Dataset(dataset)));

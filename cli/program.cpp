@@ -9,11 +9,14 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "base/process/interruption.hpp"
-#include "base/text/nearest_word.hpp"
 #include "base/text/printable.hpp"
+#include "base/text/suggestion.hpp"
+#include "cli/built_with.hpp"
+#include "cli/command_tree.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -21,7 +24,7 @@ namespace {
 std::vector<std::string> commands_of(const CLI::App& app) {
     std::vector<std::string> names;
     for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
-        names.push_back(command->get_name());
+        if (!command->get_group().empty()) names.push_back(command->get_name());
     return names;
 }
 
@@ -30,11 +33,6 @@ std::vector<std::string> options_of(const CLI::App& app) {
     for (const auto* option : app.get_options())
         for (const auto& name : option->get_lnames()) names.push_back("--" + name);
     return names;
-}
-
-std::string meant(const std::string& word, const std::vector<std::string>& candidates) {
-    const auto nearest = nearest_word(word, candidates);
-    return nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest);
 }
 
 /// The deepest command that the words name, and how many words that takes, the program's own name first.
@@ -55,12 +53,12 @@ std::string unknown_word(const CLI::App& app, int argc, char** argv) {
     const auto commands = commands_of(*command);
     if (words < argc && !commands.empty() && argv[words][0] != '-')
         return fmt::format("there is no command '{}'{}", printable(argv[words]),
-                           meant(argv[words], commands));
+                           suggestion(argv[words], commands));
     const auto options = options_of(*command);
     for (int i = words; i < argc && std::string_view(argv[i]) != "--"; ++i) {
         const std::string word(argv[i], std::strcspn(argv[i], "="));
         if (word.starts_with("--") && std::ranges::find(options, word) == options.end())
-            return fmt::format("there is no option '{}'{}", printable(word), meant(word, options));
+            return fmt::format("there is no option '{}'{}", printable(word), suggestion(word, options));
     }
     return {};
 }
@@ -78,8 +76,11 @@ namespace {
 int parse(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) {
     CLI::App app{"From raw motion capture to a published table."};
     app.name("actformer");
-    app.set_version_flag("--version", ACTFORMER_VERSION);
+    app.set_version_flag("--version", built_with);
     app.require_subcommand(1);
+    app.add_subcommand("describe", "Print the commands of this program, as JSON")
+        ->group("")
+        ->callback([&app] { fmt::print("{}\n", to_json(help_of(app)).dump()); });
     app.get_formatter()->column_width(34);
     add_commands(app);
     try {

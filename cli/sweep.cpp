@@ -11,6 +11,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "cli/shipped_option.hpp"
 #include "cli/sweep_jobs.hpp"
 #include "reports/sweep/run.hpp"
 
@@ -131,7 +132,8 @@ void run(SweepOptions options) {
     options.out = fs::absolute(options.out).lexically_normal();
     const auto sweep = reports::read_sweep(options.file);
     const SweepJobs jobs(options.program, options.out);
-    const auto plan = reports::make_plan(sweep, options.file.parent_path(), jobs);
+    auto plan = reports::make_plan(sweep, options.file.parent_path(), jobs);
+    if (options.dry_run) SweepJobs::check_trainings(plan.jobs);
     if (!options.only.empty()) {
         const auto status = reports::run_one(sweep, plan, options.only, {options.out, jobs});
         if (status.state != JobState::done) throw Error("{}: {}", options.only, status.why);
@@ -162,14 +164,19 @@ void run(SweepOptions options) {
 void add_sweep(CLI::App& app) {
     auto options = std::make_shared<SweepOptions>();
     auto* command = app.add_subcommand("sweep", "Train and score everything that a set of tables needs");
-    command->add_option("sweep", options->file, "Datasets, recognisers and rows, as in reports/sweeps")
+    takes_shipped(command->add_option("sweep", options->file,
+                                      "Datasets, recognisers and rows: a file, or the name of one that comes "
+                                      "with the program"),
+                  "reports/sweeps")
         ->required()
         ->type_name("SWEEP.yaml");
+    lists_shipped(command, "reports/sweeps");
     command->add_option("-o,--out", options->out, "Folder of all it makes")->required()->type_name("DIR");
     command->add_option("--jobs", options->jobs, "Jobs at once")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
-    command->add_flag("--dry-run", options->dry_run, "Print the jobs, their commands and what they may cost");
+    command->add_flag("--dry-run", options->dry_run,
+                      "Check every key; print the jobs, their commands and what they may cost");
     command->add_flag("--status", options->status, "Print how far it is, here or on Slurm");
     auto* slurm = command->add_flag("--slurm", options->slurm, "Submit the jobs through sbatch");
     command->add_option("--sbatch", options->sbatch, "A word for every sbatch, as in --sbatch=--gres=gpu:1")
@@ -180,9 +187,10 @@ void add_sweep(CLI::App& app) {
         ->type_name("PROGRAM");
     command->add_flag("--json", options->json, "Print the results as JSON");
     examples(command,
-             "  actformer sweep reports/sweeps/mini.yaml -o mini --dry-run\n"
-             "  actformer sweep reports/sweeps/mini.yaml -o mini --jobs 2\n"
-             "  actformer sweep reports/sweeps/table3.yaml -o tables --slurm --sbatch=--gres=gpu:1\n"
+             "  actformer sweep                                        which sweeps come with the program\n"
+             "  actformer sweep mini -o mini --dry-run\n"
+             "  actformer sweep mine.yaml -o mine --jobs 2\n"
+             "  actformer sweep table3 -o tables --slurm --sbatch=--gres=gpu:1\n"
              "Interrupted, the same command goes on where it was. A row that fails stops no other.\n");
     command->callback([options] { run(*options); });
 }

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
+#include "base/files/file.hpp"
+#include "base/files/scratch.hpp"
+#include "base/process/peer.hpp"
 #include "base/process/process.hpp"
 #include "reports/sweep/plan.hpp"
 
@@ -107,6 +112,25 @@ std::string SweepJobs::run(const Job& job, const std::filesystem::path& log) con
                        : result.last_line;
     }
     return {};
+}
+
+void SweepJobs::check_trainings(std::vector<Job>& jobs) {
+    auto asked = nlohmann::json::array();
+    std::vector<Job*> trainings;
+    for (auto& job : jobs)
+        if (const auto* work = std::get_if<TrainingWork>(&job.work); work && job.problem.empty()) {
+            asked.push_back({{"network", work->network}, {"config", work->config}, {"set", work->set}});
+            trainings.push_back(&job);
+        }
+    if (trainings.empty()) return;
+    const Scratch folder("check");
+    const auto file = (folder.path() / "trainings.json").string();
+    write_whole(file, asked.dump());
+    const auto answer = output_of({(program_folder() / "actformer").string(), "train", "check", file});
+    if (!answer) return;
+    const auto problems = nlohmann::json::parse(*answer);
+    for (std::size_t i = 0; i < trainings.size(); ++i)
+        trainings[i]->problem = problems.at(i).get<std::string>();
 }
 
 }  // namespace actformer::cli

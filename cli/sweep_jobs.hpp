@@ -19,6 +19,10 @@ class SweepJobs : public reports::JobRunner {
     std::vector<std::string> command_lines(const reports::Job& job) const override;
     std::string run(const reports::Job& job, const std::filesystem::path& log) const override;
 
+    /// A training whose configuration has no such key, or takes no such value, gets that for its problem. Nothing is looked at where this
+    /// program was built without training.
+    static void check_trainings(std::vector<reports::Job>& jobs);
+
   private:
     /// The commands one after another, with all paths put in.
     std::vector<std::vector<std::string>> commands(const reports::Job& job) const;

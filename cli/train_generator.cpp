@@ -70,14 +70,13 @@ void add_train_generator(CLI::App& train) {
     add_training_options(command, *options);
     command->add_flag("--data-parallel", options->data_parallel,
                       "As one of the processes that torchrun, mpirun or srun started");
-    examples(
-        command,
-        "  actformer train generator -c model/configs/actformer-small.yaml --data ntu/ntu-1p -o generator\n"
-        "  actformer train generator -c model/configs/actformer-ntu-2p.yaml --data ntu/ntu-2p -o generator "
-        "recogniser=recogniser device=cuda bf16=true\n"
-        "  torchrun --no_python --nproc_per_node 2 actformer train generator -c "
-        "model/configs/actformer-small.yaml --data ntu/ntu-1p -o generator --data-parallel\n" +
-            methods_named());
+    examples(command,
+             "  actformer train generator -c actformer-small --data ntu/ntu-1p -o generator\n"
+             "  actformer train generator -c actformer-ntu-2p --data ntu/ntu-2p -o generator "
+             "recogniser=recogniser device=cuda bf16=true\n"
+             "  torchrun --no_python --nproc_per_node 2 actformer train generator -c "
+             "actformer-small --data ntu/ntu-1p -o generator --data-parallel\n" +
+                 methods_named());
     command->callback([options] { run(*options); });
 }
 

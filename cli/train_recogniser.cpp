@@ -61,11 +61,11 @@ void add_train_recogniser(CLI::App& train) {
         "Train an action recogniser: ST-GCN, or with model: gru Action2Motion's GRU classifier");
     add_training_options(command, *options);
     examples(command,
-             "  actformer train recogniser -c model/configs/recogniser-ntu-1p.yaml --data ntu/ntu-1p -o "
+             "  actformer train recogniser -c recogniser-ntu-1p --data ntu/ntu-1p -o "
              "recogniser\n"
-             "  actformer train recogniser -c model/configs/recogniser-small.yaml --data bnr10 -o small "
+             "  actformer train recogniser -c recogniser-small --data bnr10 -o small "
              "train_split=xstyle/test test_split=xstyle/train epochs=10\n"
-             "  actformer train recogniser -c model/configs/recogniser-gru.yaml --data humanact12 -o gru\n");
+             "  actformer train recogniser -c recogniser-gru --data humanact12 -o gru\n");
     command->callback([options] { run(*options); });
 }
 

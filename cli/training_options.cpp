@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include "cli/say.hpp"
 
+#include "cli/shipped_option.hpp"
+
 namespace actformer::cli {
 
 model::Config TrainingOptions::read(model::Config blank) const {
@@ -13,7 +15,10 @@ model::Config TrainingOptions::read(model::Config blank) const {
 }
 
 void add_training_options(CLI::App* command, TrainingOptions& options) {
-    command->add_option("-c,--config", options.config, "Configuration, as in model/configs")
+    takes_shipped(command->add_option("-c,--config", options.config,
+                                      "Configuration: a file, or one that comes with the program, as "
+                                      "`actformer model` lists them"),
+                  "model/configs")
         ->required()
         ->type_name("CONFIG.yaml");
     command->add_option("--data", options.data, "Dataset folder, before the configuration's data:")

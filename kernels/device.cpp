@@ -15,9 +15,9 @@
 namespace actformer::kernels {
 namespace {
 
-/// PoCL aborts where it is refused the thread that it starts for every core.
+/// PoCL aborts where it is refused the thread that it starts for every core, or a process or two while it links a kernel.
 std::vector<cl::Device> raw_devices() {
-    expect_threads(thread_count(0));
+    expect_threads(thread_count(0) + 2);
     std::vector<cl::Platform> platforms;
     try {
         cl::Platform::get(&platforms);

@@ -9,6 +9,7 @@
 #include "base/checksum/own_checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/lock.hpp"
+#include "base/files/nearest_file.hpp"
 
 namespace actformer::hdf5 {
 namespace {
@@ -34,7 +35,8 @@ Handle open_to_read(const std::filesystem::path& path) {
     silence();
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) throw Error("{}: no such file", path.string());
+    if (!std::filesystem::exists(status))
+        throw Error("{}: no such file{}", path.string(), did_you_mean(path));
     if (!std::filesystem::is_regular_file(status))
         throw Error("{}: not a file; an HDF5 file is expected", path.string());
     if (::access(path.c_str(), R_OK) != 0)

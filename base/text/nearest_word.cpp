@@ -24,14 +24,16 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
     std::string best;
+    std::size_t edits_of_best = 0;  // of words of which one is part of the other, the longer part is nearer
     std::size_t fewest = std::max<std::size_t>(2, word.size() / 2);
     for (const auto& candidate : candidates) {
         const bool part = word.size() > 2 && (candidate.find(word) != std::string::npos ||
                                               word.find(candidate) != std::string::npos);
-        const auto distance = part ? std::size_t{1} : edit_distance(word, candidate);
+        const auto edits = edit_distance(word, candidate), distance = part ? std::size_t{1} : edits;
         if (distance >= std::max(word.size(), candidate.size())) continue;  // not a letter in its place
-        if (distance < fewest || (distance == fewest && best.empty())) {
+        if (distance < fewest || (distance == fewest && (best.empty() || edits < edits_of_best))) {
             best = candidate;
+            edits_of_best = edits;
             fewest = distance;
         }
     }

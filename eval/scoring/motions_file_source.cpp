@@ -7,6 +7,7 @@
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
+#include "base/files/nearest_file.hpp"
 #include "base/hdf5/reader.hpp"
 #include "ingest/dataset/described_motions.hpp"
 #include "ingest/dataset/subjects.hpp"
@@ -144,7 +145,8 @@ std::unique_ptr<MotionSource> open_motions(const fs::path& file, MotionsFileOpti
 }
 
 MotionSet motions_in(const fs::path& file, const MotionsFileOptions& options) {
-    if (!fs::is_regular_file(file)) throw Error("{}: no such file of motions", file.string());
+    if (!fs::is_regular_file(file))
+        throw Error("{}: no such file of motions{}", file.string(), did_you_mean(file));
     auto key = checksum_file(file);
     if (options.frames > 0) key += fmt::format("|{} frames", options.frames);
     if (!options.labels.empty()) {

@@ -5,7 +5,9 @@
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
+#include "base/files/nearest_file.hpp"
 #include "base/hdf5/reader.hpp"
+#include "base/text/suggestion.hpp"
 #include "ingest/dataset/dataset_json.hpp"
 #include "ingest/dataset/shard.hpp"
 
@@ -79,7 +81,8 @@ std::string fault_of(const fs::path& path, const ShardEntry& entry, const Datase
 
 Dataset::Dataset(const fs::path& folder) : folder_(folder) {
     if (!fs::exists(folder / "dataset.json"))
-        throw Error("{}: no dataset (no dataset.json in it); actformer ingest makes one", folder.string());
+        throw Error("{}: no dataset (no dataset.json in it); actformer ingest makes one{}", folder.string(),
+                    fs::exists(folder) ? "" : did_you_mean(folder));
     auto file = read_dataset_json(folder / "dataset.json");
     header_ = std::move(file.header);
     fingerprint_ = std::move(file.fingerprint);
@@ -102,9 +105,10 @@ std::vector<std::size_t> Dataset::split(const std::string& name) const {
     const auto found = std::find_if(header_.splits.begin(), header_.splits.end(),
                                     [&](const Split& split) { return split.name == name; });
     if (found == header_.splits.end() && name != "all") {
-        std::string known = "all";
-        for (const auto& split : header_.splits) known += ", " + split.name;
-        throw Error("{}: no split '{}'; there is {}", folder_.string(), name, known);
+        std::vector<std::string> known{"all"};
+        for (const auto& split : header_.splits) known.push_back(split.name);
+        throw Error("{}: no split '{}'; there is {}{}", folder_.string(), name, fmt::join(known, ", "),
+                    suggestion(name, known));
     }
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < clips_.size(); ++i)
@@ -156,7 +160,7 @@ Verification verify_dataset(const fs::path& folder) {
 }
 
 std::vector<fs::path> datasets_at(const fs::path& path) {
-    if (!fs::exists(path)) throw Error("{}: no such folder", path.string());
+    if (!fs::exists(path)) throw Error("{}: no such folder{}", path.string(), did_you_mean(path));
     if (fs::exists(path / "dataset.json")) return {path};
     std::vector<fs::path> found;
     if (fs::is_directory(path))

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/text/suggestion.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -19,8 +20,8 @@ std::vector<std::string> pieces(const std::string& text, char separator) {
 
 [[noreturn]] void refuse_field(const Split& split, const Condition& condition,
                                const std::vector<std::string>& fields) {
-    throw Error("split {}: clips have no field '{}'; they have {}", split.name, condition.field,
-                fmt::join(fields, ", "));
+    throw Error("split {}: clips have no field '{}'; they have {}{}", split.name, condition.field,
+                fmt::join(fields, ", "), suggestion(condition.field, fields));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
+#include "base/files/nearest_file.hpp"
 #include "ingest/dataset/described_motions.hpp"
 
 namespace actformer::ingest {
@@ -82,7 +83,8 @@ ExportClip ClipSource::read(std::size_t clip) const {
 
 std::unique_ptr<ClipSource> open_clips(const fs::path& path, const fs::path& bones) {
     std::error_code ignored;
-    if (!fs::exists(path, ignored)) throw Error("{}: no such file or folder", path.string());
+    if (!fs::exists(path, ignored))
+        throw Error("{}: no such file or folder{}", path.string(), did_you_mean(path));
     if (!fs::is_directory(path, ignored)) return std::make_unique<MotionsClips>(path, bones);
     if (!bones.empty()) throw Error("{}: a dataset has bones of its own; leave --bones out", path.string());
     const auto folders = datasets_at(path);

@@ -7,6 +7,7 @@
 #include "base/text/printable.hpp"
 #include "ingest/export/export_format.hpp"
 #include "ingest/export/fit_name.hpp"
+#include "ingest/export/foreign.hpp"
 #include "ingest/export/skeletons.hpp"
 
 namespace actformer::ingest {
@@ -65,6 +66,7 @@ class Export {
         if (!request.body.empty()) take_body();
         if (target.format->skeletons && source.subjects().representation != Representation::rot6d)
             context_.pose = rest_pose(source.read(first));
+        context_.force = request.force;
         summary_.format = target.format->name;
         summary_.representation = source.subjects().representation.name();
     }
@@ -95,6 +97,7 @@ class Export {
                 "{}: a .{} holds one clip and {} are chosen; choose one with --clip, or make a folder of "
                 "them with --format {}",
                 request_.out.string(), target_.format->name, picks.size(), target_.format->name);
+        check_replaces(request_.out);
         const auto file = target_.format->open(request_.out, context_);
         for (std::size_t i = 0; i < picks.size(); ++i) {
             add(*file, picks[i]);
@@ -109,16 +112,23 @@ class Export {
         for (const auto i : picks) clips.push_back(source_.clips()[i].name);
         const auto names = fit_names(clips, NameFor::file);
         note(names_changed(clips, names, "file name"));
+        std::vector<fs::path> paths;
+        for (const auto& name : names)
+            check_replaces(
+                paths.emplace_back(request_.out / fmt::format("{}.{}", name, target_.format->name)));
         make_folders(request_.out);
         context_.sync = Sync::later;  // all at once, below
         for (std::size_t i = 0; i < picks.size(); ++i) {
-            const auto file = target_.format->open(
-                request_.out / fmt::format("{}.{}", names[i], target_.format->name), context_);
+            const auto file = target_.format->open(paths[i], context_);
             add(*file, picks[i]);
             finish(*file);
             if (progress) progress(i + 1, picks.size());
         }
         sync_all(request_.out);
+    }
+
+    void check_replaces(const fs::path& path) const {
+        if (!request_.force) refuse_foreign(path);
     }
 
     void add(ExportFile& file, std::size_t clip) {

@@ -15,6 +15,7 @@ struct ExportRequest {
     std::filesystem::path bones;  ///< as open_clips takes it
     std::filesystem::path body;  ///< SMPL's model file, for a skin on rotations of SMPL's joints; empty: none
     Selection selection;
+    bool force = false;  ///< replaces files that this program did not write
 };
 
 struct ExportSummary {
@@ -27,7 +28,7 @@ struct ExportSummary {
 
 /// Calls `progress(clips done, of how many)` after every clip. A file appears whole or not at all; one clip is in memory at
 /// a time. Throws Error for a format that there is none of, several clips where one fits a file, a body where none fits, and as open_clips,
-/// selected and read_smpl_body do.
+/// selected, read_smpl_body and refuse_foreign do.
 ExportSummary export_clips(const ExportRequest& request,
                            const std::function<void(std::size_t, std::size_t)>& progress = {});
 

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/text/printable.hpp"
+#include "base/text/suggestion.hpp"
 #include "ingest/dataset/classes.hpp"
 
 namespace actformer::ingest {
@@ -16,8 +17,9 @@ void keep_named(std::vector<std::size_t>& picks, const ClipSource& source, const
     for (const auto& clip : source.clips()) there.insert(clip.name);
     for (const auto& name : selection.clips)
         if (!there.contains(name))
-            throw Error("{}: no clip {}; its clips are called as {}", source.path().string(), in_quotes(name),
-                        in_quotes(source.clips()[0].name));
+            throw Error("{}: no clip {}; its clips are called as {}{}", source.path().string(),
+                        in_quotes(name), in_quotes(source.clips()[0].name),
+                        suggestion(name, {there.begin(), there.end()}));
     std::erase_if(picks, [&](std::size_t i) { return !wanted.contains(source.clips()[i].name); });
 }
 

@@ -15,6 +15,7 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/nearest_file.hpp"
 #include "base/files/regular_file.hpp"
 #include "base/text/html.hpp"
 #include "base/threads/parallel.hpp"
@@ -300,7 +301,8 @@ Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_v
     for (std::size_t i = 0; i < raw.size(); ++i) {
         std::error_code error;
         const auto status = fs::status(raw[i], error);
-        if (!fs::exists(status)) throw Error("{}: no such file or folder", raw[i].string());
+        if (!fs::exists(status))
+            throw Error("{}: no such file or folder{}", raw[i].string(), did_you_mean(raw[i]));
         if (fs::is_directory(status)) {
             add_files_below(raw[i], i, state_->extensions, state_->items);
         } else {

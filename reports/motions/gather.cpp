@@ -7,6 +7,8 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/nearest_file.hpp"
+#include "base/text/suggestion.hpp"
 #include "ingest/dataset/classes.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/described_motions.hpp"
@@ -110,9 +112,12 @@ std::vector<JointMotion> motions_by_name(const std::vector<ingest::Dataset>& dat
         for (const auto& dataset : datasets)
             if (const auto clip = dataset.find(name))
                 motions.push_back(motion_of_clip(dataset, *clip, wanted));
-        if (motions.size() == before)
-            throw Error("{} has no clip '{}'; its clips are called as in '{}'", path.string(), name,
-                        datasets[0].clips().empty() ? "" : datasets[0].clips()[0].name);
+        if (motions.size() > before) continue;
+        std::vector<std::string> names;
+        for (const auto& dataset : datasets)
+            for (const auto& clip : dataset.clips()) names.push_back(clip.name);
+        throw Error("{} has no clip '{}'; its clips are called as in '{}'{}", path.string(), name,
+                    names.empty() ? "" : names[0], suggestion(name, names));
     }
     return motions;
 }
@@ -176,8 +181,8 @@ std::vector<JointMotion> motions_of_motions(const fs::path& path, const Wanted& 
     for (const auto& name : wanted.clips) {
         const auto found = std::ranges::find(names, name);
         if (found == names.end())
-            throw Error("{} has no motion '{}'; its motions are called as in '{}'", path.string(), name,
-                        names[0]);
+            throw Error("{} has no motion '{}'; its motions are called as in '{}'{}", path.string(), name,
+                        names[0], suggestion(name, names));
         picks.push_back(static_cast<std::size_t>(found - names.begin()));
     }
     if (wanted.clips.empty()) {
@@ -210,7 +215,8 @@ JointMotion motion_of_raw(const fs::path& path) {
 
 std::vector<JointMotion> gather(const fs::path& path, const Wanted& wanted) {
     std::error_code ignored;
-    if (!fs::exists(path, ignored)) throw Error("{}: no such file or folder", path.string());
+    if (!fs::exists(path, ignored))
+        throw Error("{}: no such file or folder{}", path.string(), did_you_mean(path));
     if (fs::is_directory(path, ignored)) return motions_of_datasets(path, wanted);
     if (path.extension() == ".skeleton") {
         if (wanted.body)

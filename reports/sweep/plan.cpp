@@ -8,6 +8,8 @@
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
+#include "base/files/nearest_file.hpp"
+#include "base/process/shipped.hpp"
 #include "ingest/dataset/dataset.hpp"
 
 namespace actformer::reports {
@@ -65,15 +67,22 @@ class Planner {
         double clips = 0;  ///< of a dataset; 0 where that is not known yet
     };
 
-    std::string found(const std::string& path, Job& job) const {
+    /// Its path where it is there; empty where it is not.
+    std::string place_of(const std::string& path) const {
         for (const auto& candidate : {fs::path(path), beside_ / path})
             if (fs::exists(candidate)) return fs::absolute(candidate).lexically_normal().string();
-        if (job.problem.empty()) job.problem = fmt::format("{}: no such file or folder", path);
+        return {};
+    }
+
+    std::string found(const std::string& path, Job& job) const {
+        if (auto at = place_of(path); !at.empty()) return at;
+        if (job.problem.empty())
+            job.problem = fmt::format("{}: no such file or folder{}", path, did_you_mean(path));
         return path;
     }
 
     /// What should be there, and needs no job then; where it is not, `job` stands for it and says so.
-    Made at_hand(const std::string& path, const char* what, Job job) {
+    Made there(const std::string& path, const char* what, Job job) {
         const auto at = found(path, job);
         if (job.problem.empty()) return {{}, at};
         job.work = MissingWork{what, at};
@@ -85,6 +94,17 @@ class Planner {
         const auto at = found(path, job);
         if (fs::is_regular_file(at)) contents_ += "|" + checksum_file(at);
         return at;
+    }
+
+    /// A configuration may be one that comes with the program.
+    std::string configuration(const std::string& path, Job& job) {
+        if (!place_of(path).empty()) return with_contents(path, job);
+        try {
+            return with_contents(file_or_shipped(path, "model/configs").string(), job);
+        } catch (const Error& e) {
+            if (job.problem.empty()) job.problem = e.what();
+            return path;
+        }
     }
 
     std::size_t add(Job job) {
@@ -117,7 +137,7 @@ class Planner {
         job.kind = "ingest";
         job.title = "dataset " + name;
         if (!d.path.empty()) {
-            auto made = at_hand(d.path, "dataset", std::move(job));
+            auto made = there(d.path, "dataset", std::move(job));
             if (!made.job) made.clips = clips_in(made.path);
             return made;
         }
@@ -148,7 +168,7 @@ class Planner {
 
     std::size_t train(Job job, const std::string& config, const Settings& set, const Made& data) {
         need(job, data);
-        TrainingWork work{job.kind, with_contents(config, job), data.path, set};
+        TrainingWork work{job.kind, configuration(config, job), data.path, set};
         job.amount =
             number_in(set, work.config, "epochs", 0) * data.clips / 2;  // a protocol trains on about half
         job.pace = training_pace(job.kind, set, work.config);
@@ -161,7 +181,7 @@ class Planner {
         Job job;
         job.kind = "recogniser";
         job.title = "recogniser " + name;
-        if (!r.weights.empty()) return at_hand(r.weights, "weights", std::move(job));
+        if (!r.weights.empty()) return there(r.weights, "weights", std::move(job));
         const auto at = train(std::move(job), r.config, r.set, dataset(r.data));
         return {at, made_by(at, TrainingWork().out)};
     }

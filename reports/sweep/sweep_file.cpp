@@ -1,9 +1,12 @@
 #include "reports/sweep/sweep_file.hpp"
 
+#include <yaml-cpp/depthguard.h>
+
 #include <algorithm>
 #include <set>
 
 #include "base/files/regular_file.hpp"
+#include "base/text/suggestion.hpp"
 #include "ingest/formats/formats.hpp"
 #include "reports/tables/paper_tables.hpp"
 #include "reports/tables/yaml_place.hpp"
@@ -219,7 +222,9 @@ void each(const Place& place, const Node& root, const std::string& name, const E
 void check_references(const Place& place, const Node& root, const Sweep& sweep) {
     const auto known = [&](const auto& map, const std::string& name, const Node& where, const char* what) {
         if (name.empty() || map.contains(name)) return;
-        place.fail(where, fmt::format("there is no {} '{}'", what, name));
+        std::vector<std::string> names;
+        for (const auto& [one, unused] : map) names.push_back(one);
+        place.fail(where, fmt::format("there is no {} '{}'{}", what, name, suggestion(name, names)));
     };
     for (const auto& [name, r] : sweep.recognisers)
         known(sweep.datasets, r.data, root["recognisers"][name], "dataset");

@@ -19,7 +19,7 @@ const std::string deep(200'000, '[');
 
 TEST_F(Limits, NumbersOfThreadsAreBounded) {
     for (const std::string command :
-         {"ingest ntu raw -o out", "synth ntu -o raw", "synth smpl -o raw", "bench ingest"})
+         {"ingest ntu raw -o out", "synth ntu -o raw", "synth uestc -o raw", "bench ingest"})
         expect_refused(run_actformer(command + " --threads 4294967295"), {"--threads", "1024"});
 }
 

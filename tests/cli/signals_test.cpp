@@ -92,7 +92,7 @@ TEST_F(Signals, ALimitOnTheSizeOfFilesIsALine) {
 }
 
 TEST_F(SweepSignals, GoToTheJobsAndMarkNoneOfThemFailed) {
-    sweep_file("  - {name: row, table: 3, cell: none}\n");
+    sweep_file("  a row: {}\n");
     write_file(dir / "pause", "600");
     Child child(
         "sweep " + at("sweep.yaml") + " -o " + at("out") + " --program " + at("actformer") + " --jobs 2",

@@ -317,3 +317,26 @@ TEST(RealSweep, GoesFromADatasetToScores) {
     EXPECT_EQ(scores["fid_whole"]["repeats"].size(), 2U);
     EXPECT_TRUE(fs::exists(dir / "out" / row["runs"][0]["motions"].get<std::string>()));
 }
+
+TEST_F(Sweep, ADryRunChecksEveryKey) {
+    if (!fs::exists(program() + "-train")) GTEST_SKIP() << "built without libtorch";
+    sweep_file(
+        "  good: {set: {prior: gaussian}}\n"
+        "  typing: {set: {piror: gaussian}}\n"
+        "  choosing: {set: {epochs: many}}\n",
+        "");
+    const auto plan = sweep("--dry-run").output;
+    EXPECT_NE(plan.find("there is no key 'piror'; did you mean 'prior'?"), std::string::npos) << plan;
+    EXPECT_NE(plan.find("epochs must be a whole number"), std::string::npos) << plan;
+    EXPECT_EQ(calls().size(), 0U);
+    write_file(dir / "r.yaml", "model: recogniser\nwidht: 1\n");
+    EXPECT_NE(sweep("--dry-run").output.find("r.yaml:2: there is no key 'widht'; did you mean 'width'?"),
+              std::string::npos);
+}
+
+TEST_F(Sweep, SuggestsTheNameThatWasMeant) {
+    sweep_file("  full: {data: onne}\n");
+    expect_refused({"there is no dataset 'onne'; did you mean one?"});
+    sweep_file("  full: {recogniser: won}\n");
+    expect_refused({"there is no recogniser 'won'; did you mean one?"});
+}

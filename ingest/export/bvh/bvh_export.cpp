@@ -6,6 +6,7 @@
 #include "base/files/aside.hpp"
 #include "ingest/export/bvh/bvh_writer.hpp"
 #include "ingest/export/fit_name.hpp"
+#include "ingest/export/foreign.hpp"
 #include "ingest/export/skeletons.hpp"
 
 namespace actformer::ingest {
@@ -25,6 +26,7 @@ class BvhExport : public ExportFile {
         for (std::size_t p = 0; p < persons.size(); ++p) {
             persons[p].topology.names = names_;
             const auto path = persons.size() == 1 ? path_ : of_person(p + 1);
+            if (!context_.force) refuse_foreign(path);
             auto& file = files_.emplace_back(path, std::make_unique<Aside>(path, context_.sync)).second;
             file->write(bvh_text(persons[p], context_.subjects.fps));
             file->settle();

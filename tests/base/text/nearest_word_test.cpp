@@ -11,6 +11,8 @@ TEST(NearestWord, CountsSwapsAndParts) {
     EXPECT_EQ(nearest_word("epoch", words), "epochs");
     EXPECT_EQ(nearest_word("learning_rate", words), "rate");
     EXPECT_EQ(nearest_word("zzzzzz", words), "");
+    EXPECT_EQ(nearest_word("table-smal", {"table", "table-small"}), "table-small")
+        << "more of it is the same";
 }
 
 }  // namespace

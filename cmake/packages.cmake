@@ -1,0 +1,32 @@
+# Debian packages, made by `./run package`: the program, training (which needs libtorch), and what there is to read.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_VENDOR "The actformer authors")
+set(CPACK_PACKAGE_CONTACT "The actformer authors <maintainers@actformer.invalid>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "From raw motion capture to a published table")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program docs)
+if(TARGET actformer-train)
+  list(APPEND CPACK_COMPONENTS_ALL training)
+endif()
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME actformer)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "pocl-opencl-icd | opencl-icd, fonts-dejavu-core, actformer-train")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "actformer-doc")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Cleans motion capture, scores generated motion and draws it.")
+
+set(CPACK_DEBIAN_TRAINING_PACKAGE_NAME actformer-train)
+set(CPACK_DEBIAN_TRAINING_PACKAGE_SHLIBDEPS ON)
+# libtorch takes the reference BLAS, which is many times slower, where OpenBLAS is not there.
+set(CPACK_DEBIAN_TRAINING_PACKAGE_DEPENDS "actformer (= ${PROJECT_VERSION}), libopenblas0-pthread")
+set(CPACK_COMPONENT_TRAINING_DESCRIPTION "Trains recognisers and generators and generates motion, with libtorch.")
+
+set(CPACK_DEBIAN_DOCS_PACKAGE_NAME actformer-doc)
+set(CPACK_DEBIAN_DOCS_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DOCS_PACKAGE_SECTION doc)
+set(CPACK_COMPONENT_DOCS_DESCRIPTION "The README, the pages of docs/, and the Python package that reads the program's files.")
+include(CPack)

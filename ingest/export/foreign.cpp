@@ -1,0 +1,66 @@
+#include "ingest/export/foreign.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/files/mapped_file.hpp"
+#include "base/hdf5/reader.hpp"
+#include "base/numpy/zip.hpp"
+
+namespace actformer::ingest {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "actformer 0.1.0", and not "actformer, the Python package": those motions are the user's.
+bool names_this_program(std::string_view program) {
+    constexpr std::string_view name = "actformer ";
+    return program.size() > name.size() && program.starts_with(name) && program[name.size()] >= '0' &&
+           program[name.size()] <= '9';
+}
+
+/// Datasets' shards and networks' weights name the program too, and hold no motions of (P*C, K, T).
+bool is_own_hdf5(const fs::path& path) {
+    const hdf5::Reader file(path);
+    if (!file.has_attribute("program") || !file.has_attribute("representation") ||
+        file.has_attribute("dataset") || file.has_attribute("kind"))
+        return false;
+    const auto names = file.names();
+    const auto program = file.attribute_texts("program");
+    return program.size() == 1 && names_this_program(program[0]) &&
+           std::ranges::all_of(
+               names, [&](const auto& name) { return file.is_array(name) && file.shape(name).size() == 3; });
+}
+
+bool is_own(const fs::path& path) try {
+    const MappedFile file(path);
+    const auto bytes = file.text();
+    if (bytes.starts_with("PK")) {
+        const auto members = zip_members(bytes);
+        const auto has = [&](std::string_view name) {
+            return std::ranges::count(members, name, &ZipMember::name) == 1;
+        };
+        return has("program.npy") && has("clips.npy") && has("parents.npy");
+    }
+    constexpr std::size_t head = 4096;
+    if (bytes.starts_with("glTF")) {
+        constexpr std::string_view key = "\"generator\":\"";
+        const auto at = bytes.substr(0, head).find(key);
+        return at != bytes.npos && names_this_program(bytes.substr(at + key.size()));
+    }
+    return bytes.starts_with("\x89HDF") && is_own_hdf5(path);
+} catch (const Error&) {
+    return false;
+}
+
+}  // namespace
+
+void refuse_foreign(const fs::path& path) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored) || fs::file_size(path, ignored) == 0 || is_own(path)) return;
+    throw Error("{}: is there, and {}; choose another name, or replace it with --force", path.string(),
+                path.extension() == ".bvh" ? "a .bvh does not tell whether this program wrote it"
+                                           : "holds no motions that this program wrote");
+}
+
+}  // namespace actformer::ingest
