@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/process/process.hpp"
+#include "base/process/signal_mask.hpp"
 #include "cli/program.hpp"
 
 namespace {
@@ -35,6 +36,7 @@ void wait_without_spinning() {
 /// Becomes the program that a command lives in; comes back only where it cannot.
 int become(const Subprogram& sub, char** argv) {
     wait_without_spinning();
+    actformer::block_signals();
     ::execv(path_of(sub).c_str(), argv);
     std::fprintf(
         stderr,
