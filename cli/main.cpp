@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/process/peer.hpp"
 #include "base/process/process.hpp"
+#include "base/process/signal_mask.hpp"
 #include "cli/command_tree.hpp"
 #include "cli/completion.hpp"
 #include "cli/man_pages.hpp"
@@ -47,6 +48,7 @@ void wait_without_spinning() {
 /// Becomes the program that a command lives in; comes back only where it cannot.
 int become(const Subprogram& sub, char** argv) {
     wait_without_spinning();
+    actformer::block_signals();
     ::execv(path_of(sub).c_str(), argv);
     const bool draws = std::string_view(sub.program) == "actformer-render";
     std::fprintf(stderr, "actformer: '%s' is done by %s, which is not here: %s\n", sub.command, sub.program,

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "base/files/temporary.hpp"
+#include "base/process/signal_mask.hpp"
 #include "base/text/printable.hpp"
 
 namespace actformer {
@@ -72,9 +73,8 @@ void end_in_order() {
     // nobody. Those that end the program are waited for, also where its caller ignores them, and then nothing is done.
     ::signal(SIGPIPE, SIG_IGN);
     ::signal(SIGXFSZ, SIG_IGN);
-    const auto failing = set_of({SIGPIPE, SIGXFSZ}), ending = set_of({SIGINT, SIGTERM, SIGHUP});
-    ::pthread_sigmask(SIG_BLOCK, &failing, nullptr);
-    ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
+    block_signals();
+    const auto ending = set_of({SIGINT, SIGTERM, SIGHUP});
     sigset_t ignored;
     ::sigemptyset(&ignored);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
