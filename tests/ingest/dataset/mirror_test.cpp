@@ -12,7 +12,7 @@ using namespace actformer::ingest;
 
 namespace {
 
-using Joints = std::vector<std::uint32_t>;
+using Others = std::vector<std::uint32_t>;
 
 Topology two_hands(const std::string& left, const std::string& right) {
     return {{"Hips", left, right}, {-1, 0, 0}};
@@ -41,13 +41,13 @@ TEST(Mirror, KnowsTheNamesThatToolsGive) {
         {"LHipJoint", "RHipJoint"}, {"l_hand", "r_hand"},
         {"hand.L", "hand.R"},       {"mixamorig:LeftHand", "mixamorig:RightHand"}};
     for (const auto& [left, right] : pairs)
-        EXPECT_EQ(other_side(two_hands(left, right), "x"), (Joints{0, 2, 1})) << left;
+        EXPECT_EQ(other_side(two_hands(left, right), "x"), (Others{0, 2, 1})) << left;
 }
 
 TEST(Mirror, TakesNoLetterOfAWordForASide) {
     // "Lower", "Root" and "Collar" begin with or hold an l or an r.
     const Topology arms{{"Root", "Lower", "LCollar", "RCollar"}, {-1, 0, 1, 1}};
-    EXPECT_EQ(other_side(arms, "x"), (Joints{0, 1, 3, 2}));
+    EXPECT_EQ(other_side(arms, "x"), (Others{0, 1, 3, 2}));
 }
 
 TEST(Mirror, RefusesABodyWithoutSides) {
