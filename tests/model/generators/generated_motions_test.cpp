@@ -127,15 +127,17 @@ TEST_F(ScoreGenerator, MeasuresAsActorDoes) {
 }
 
 TEST_F(ScoreGenerator, GoesOnWhereItWasInterrupted) {
-    fs::create_directories(dir / "s.json/full");  // the scores cannot be written: all is done but that
     const auto arguments = generator("--repeats 2 -o " + at("s.json"));
-    EXPECT_EQ(score(arguments).exit, 1);
+    // The scores cannot be written: all is done but that. Their file is opened and closed before the work, to see whether it can be made.
+    EXPECT_EQ(run_command("FAIL_BELOW=" + at("s.json.partial") + " FAIL_AT=3 LD_PRELOAD=" + failing_calls() +
+                          " " + line(arguments))
+                  .exit,
+              1);
     std::vector<fs::path> kept;
     for (const auto& entry : fs::directory_iterator(at("s.json.work")))
         if (entry.path().extension() == ".h5") kept.push_back(entry.path());
     ASSERT_EQ(kept.size(), 2U) << "features, and no motions";
     fs::copy_file(kept[0], kept[1], fs::copy_options::overwrite_existing);  // tells whether they are used
-    fs::remove_all(dir / "s.json");
     ASSERT_EQ(score(arguments).exit, 0);
     const auto json = nlohmann::json::parse(read_file(at("s.json")));
     EXPECT_EQ(json["fid_whole"]["repeats"][0], json["fid_whole"]["repeats"][1]);
