@@ -12,7 +12,7 @@ namespace actformer::hdf5 {
 class Handle {
   public:
     Handle() = default;
-    Handle(hid_t id, herr_t (*closes)(hid_t)) : id_(id), close_(closes) {}
+    Handle(hid_t id, herr_t (*closer)(hid_t)) : id_(id), close_(closer) {}
     ~Handle();
     Handle(Handle&& other) noexcept;
     Handle& operator=(Handle&& other) noexcept;

@@ -112,8 +112,9 @@ struct FailingWrites : testing::Test {
             check_failed(writing, ran, out, right);
         }
         for (const auto& [name, bytes] : tree(out))
-            if (writing.after == AfterFailure::nothing || ran.result.exit == 0)
+            if (writing.after == AfterFailure::nothing || ran.result.exit == 0) {
                 EXPECT_EQ(name.find(".partial"), std::string::npos) << "left over: " << name;
+            }
         fs::remove_all(out);
     }
 
