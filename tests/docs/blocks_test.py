@@ -100,7 +100,7 @@ def main():
     parser.add_argument("--printed", action="store_true", help="as printed: no shorter training")
     options = parser.parse_args()
     sources = options.sources.resolve()
-    environment = dict(os.environ, PATH=f"{options.program.resolve()}:{os.environ['PATH']}", PYTHONPATH=str(sources / "python"))
+    environment = dict(os.environ, PATH=f"{options.program.resolve()}:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", PYTHONPATH=str(sources / "python"))
     pages = options.pages or ["README.md", "examples/cmu/README.md", "python/README.md",
                               *sorted(f"docs/{page.name}" for page in (sources / "docs").glob("*.md"))]
     with tempfile.TemporaryDirectory(prefix="actformer-docs-") as folder:
