@@ -225,6 +225,17 @@ TEST_F(TrainGenerator, GoesBackBehindDamagedCheckpointsAndRefusesForeignOnes) {
     EXPECT_TRUE(fs::exists(dir / "run" / (last + ".damaged")));
 
     write_file(dir / "run/checkpoint-99999", "actformer checkpoint 2\nof an earlier version");
+    const auto past = train("run", "epochs=2");
+    EXPECT_EQ(past.exit, 0) << past.output;
+    EXPECT_NE(past.output.find("checkpoint-99999: of another version; going back to"), std::string::npos)
+        << past.output;
+    EXPECT_EQ(read_file(dir / "run/weights-last.h5"), weights);
+
+    std::vector<fs::path> whole;
+    for (const auto& entry : fs::directory_iterator(dir / "run"))
+        if (entry.path().filename().string().starts_with("checkpoint-") && entry.path().extension() == ".h5")
+            whole.push_back(entry.path());
+    for (const auto& checkpoint : whole) fs::remove(checkpoint);
     expect_refused(train("run", "epochs=2"), {"checkpoint-99999", "an earlier version", "another -o"});
 }
 
