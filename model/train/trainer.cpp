@@ -45,6 +45,7 @@ class Loop {
     }
     Json state_now();
     std::map<std::string, std::string> notes(std::uint64_t step) const;
+    void save_best();
     void save();
     bool keep();
     [[noreturn]] void stop();
@@ -68,6 +69,8 @@ class Loop {
     std::uint64_t timed_from_ = 0, kept_step_ = 0;
     double epoch_seconds_ = 0;  ///< spent on the running epoch by earlier calls
     std::optional<ScoreReport> best_, last_;
+    std::optional<std::vector<Array>>
+        unsaved_best_;  ///< weights that could not be written when they were the best
     double best_merit_ = 0;
 };
 
@@ -213,13 +216,13 @@ std::optional<ScoreReport> Loop::end_scores() {
     auto scores = scorer_ ? scorer_->end() : std::nullopt;
     if (!scores) return std::nullopt;
     auto& report = scores->report;
-    report.best = (!best_ || scores->merit > best_merit_) && write([&] {
-                      task_.save_weights(file("weights-best.h5"), scores->weights, notes(report.step));
-                  });
+    report.best = !best_ || scores->merit > best_merit_;
     last_ = report;
     if (report.best) {
         best_ = report;
         best_merit_ = scores->merit;
+        unsaved_best_ = std::move(scores->weights);
+        write([this] { save_best(); });
     }
     return report;
 }
@@ -275,8 +278,16 @@ bool Loop::write(const std::function<void()>& something) const {
     }
 }
 
+/// The best weights, where those in the folder are others.
+void Loop::save_best() {
+    if (!unsaved_best_) return;
+    task_.save_weights(file("weights-best.h5"), *unsaved_best_, notes(best_->step));
+    unsaved_best_.reset();
+}
+
 /// Weights and checkpoint, the latter last: what a kill leaves before it is written anew, the same.
 void Loop::save() {
+    save_best();
     task_.save_weights(file("weights-last.h5"), learner_.weights(), notes(step_));
     if (learner_.keeps_ema())
         task_.save_weights(file("weights-average.h5"), learner_.ema_weights(), notes(step_));
