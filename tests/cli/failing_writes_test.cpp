@@ -139,7 +139,8 @@ struct FailingWrites : testing::Test {
 };
 
 std::string weights_for(const fs::path& dataset, const TempDir& dir) {
-    const auto& header = ingest::Dataset(dataset).header();
+    const ingest::Dataset opened(dataset);
+    const auto& header = opened.header();
     const auto graph = eval::recogniser_graph(header.topology.parents);
     const auto channels = header.persons * header.representation.numbers();
     eval::write_weights(
