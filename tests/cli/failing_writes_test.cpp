@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 
 using Tree = std::map<std::string, std::string>;
 
-constexpr long tried_in_ctest = 5;  // of a command's calls
-
 enum class AfterFailure {
     nothing,  ///< files that were finished before may stay, whole
     resumes   ///< what is done stays, and the same command goes on from there
@@ -36,6 +34,7 @@ struct Writing {
     AfterFailure after = AfterFailure::nothing;
     std::string compared = ".*";  ///< which files have the same bytes in every run
     bool keeps_features = false;  ///< in the user's cache
+    long tried = 5;               ///< of its calls, where not all are
 };
 
 struct Ran {
@@ -50,7 +49,7 @@ struct FailingWrites : testing::Test {
     std::string at(const std::string& name) const { return (dir / name).string(); }
 
     fs::path fresh() {
-        const auto out = dir / fmt::format("out-{}", runs++);
+        const auto out = dir / std::to_string(runs++) / "out";  // a dataset there is always called the same
         fs::create_directories(out);
         return out;
     }
@@ -126,7 +125,7 @@ struct FailingWrites : testing::Test {
         ASSERT_FALSE(right.empty());
         ASSERT_GE(whole.calls, 4) << "it opens, writes, closes and renames at least";
         const bool all = std::getenv("ACTFORMER_ALL_FAULTS") != nullptr;
-        const auto step = all ? 1 : std::max(1L, (whole.calls + tried_in_ctest - 1) / tried_in_ctest);
+        const auto step = all ? 1 : std::max(1L, (whole.calls + writing.tried - 1) / writing.tried);
         long tried = 0;
         for (long call = whole.calls; call >= 1; call -= step)
             for (const bool on : {false, true})
@@ -183,6 +182,11 @@ TEST_F(FailingWrites, Export) {
 TEST_F(FailingWrites, Scores) {
     const auto weights = weights_for(toy(), dir);
     ASSERT_EQ(run_actformer("export " + toy().string() + " -o " + at("m.h5") + " --split s/train").exit, 0);
+    const ingest::Dataset dataset(toy());
+    std::string labels;
+    for (const auto& clip : dataset.clips())
+        labels += fmt::format("{} {}\n", clip.name, dataset.header().classes.at(clip.label));
+    write_file(dir / "labels.txt", labels);
     check({"features",
            "features --recogniser " + weights + " " + toy().string() + " --split s/test -o {}/f.h5"});
     check({"classify", "classify --recogniser " + weights + " " + at("m.h5") + " -o {}/c.csv"});
@@ -193,7 +197,8 @@ TEST_F(FailingWrites, Scores) {
            "score --real-features " + at("f.h5") + " --generated-features " + at("f.h5") + " -o {}/s.json"});
     Writing score{"score",
                   "score --recogniser " + weights + " --real " + toy().string() +
-                      " --split s/train --generated " + at("m.h5") + " -o {}/s.json --keep-features {}/kept",
+                      " --split s/train --generated " + at("m.h5") + " --labels " + at("labels.txt") +
+                      " -o {}/s.json --keep-features {}/kept",
                   AfterFailure::resumes};
     score.keeps_features = true;
     score.compared =
@@ -225,10 +230,11 @@ TEST_F(FailingWrites, Trainings) {
         "model: actformer\nframes: 16\nwidth: 16\nheads: 2\ndepth: 1\nlatent: 8\nd_width: 2\nbatch: 6\n"
         "epochs: 1\ntrain_split: s/train\nseed: 4\nthreads: 1\ncheckpoint_minutes: 0\n");
     const std::string data = " --data " + toy().string(), weights = ".*weights.*h5";
+    constexpr long tried = 2;  // each loads libtorch twice
     check({"train recogniser", "train recogniser -c " + at("r.yaml") + data + " -o {}/run",
-           AfterFailure::resumes, weights});
+           AfterFailure::resumes, weights, false, tried});
     check({"train generator", "train generator -c " + at("g.yaml") + data + " -o {}/run",
-           AfterFailure::resumes, weights});
+           AfterFailure::resumes, weights, false, tried});
     ASSERT_EQ(run_actformer("train generator -c " + at("g.yaml") + data + " -o " + at("run")).exit, 0);
     check({"generate", "generate --generator " + at("run") + " --per-class 2 -o {}/m.h5"});
 }

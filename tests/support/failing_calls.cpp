@@ -15,7 +15,6 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdlib>
@@ -24,9 +23,6 @@
 
 namespace {
 
-enum class Watched : char { no, folder_or_read, written };
-
-std::array<std::atomic<Watched>, 65536> descriptors;
 std::atomic<long> calls;
 
 struct Plan {
@@ -64,14 +60,15 @@ bool fails(int error) {
     return true;
 }
 
-Watched watched(int fd) {
-    return fd >= 0 && fd < static_cast<int>(descriptors.size())
-               ? descriptors[static_cast<std::size_t>(fd)].load()
-               : Watched::no;
-}
-
-void watch(int fd, Watched how) {
-    if (fd >= 0 && fd < static_cast<int>(descriptors.size())) descriptors[static_cast<std::size_t>(fd)] = how;
+/// Whether a descriptor is of a file or folder below the one watched, as the kernel has it: the C library opens and closes some without
+/// telling.
+bool watched(int fd) {
+    char path[4096];
+    const auto link = "/proc/self/fd/" + std::to_string(fd);
+    const auto size = ::readlink(link.c_str(), path, sizeof path - 1);
+    if (size <= 0) return false;
+    path[size] = 0;
+    return is_below(path);
 }
 
 template <typename Function>
@@ -81,12 +78,9 @@ Function* real(const char* name) {
 
 int opened(int folder, const char* path, int flags, mode_t mode) {
     const bool writes = (flags & O_ACCMODE) != O_RDONLY || (flags & O_CREAT) != 0;
-    const bool here = is_below(path);
-    if (here && writes && fails(ENOSPC)) return -1;
+    if (is_below(path) && writes && fails(ENOSPC)) return -1;
     static auto* const next = real<int(int, const char*, int, ...)>("openat");
-    const int fd = next(folder, path, flags, mode);
-    watch(fd, !here ? Watched::no : writes ? Watched::written : Watched::folder_or_read);
-    return fd;
+    return next(folder, path, flags, mode);
 }
 
 mode_t mode_of(int flags, va_list rest) {
@@ -96,7 +90,7 @@ mode_t mode_of(int flags, va_list rest) {
 /// A call on a descriptor that is written to.
 template <typename Result, typename... Arguments>
 Result on_descriptor(const char* name, int error, int fd, Arguments... arguments) {
-    if (watched(fd) != Watched::no && fails(error)) return -1;
+    if (watched(fd) && fails(error)) return -1;
     return real<Result(int, Arguments...)>(name)(fd, arguments...);
 }
 
@@ -188,10 +182,10 @@ int syncfs(int fd) noexcept {
 }
 
 int close(int fd) {
-    const auto before = watched(fd);
-    watch(fd, Watched::no);
+    const int flags = ::fcntl(fd, F_GETFL);
+    const bool written = flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && watched(fd);
     const auto done = static_cast<int>(::syscall(SYS_close, fd));
-    return before == Watched::written && fails(EIO) ? -1 : done;
+    return written && fails(EIO) ? -1 : done;
 }
 
 int rename(const char* from, const char* to) noexcept {
