@@ -128,8 +128,9 @@ TEST_F(ScoreGenerator, MeasuresAsActorDoes) {
 
 TEST_F(ScoreGenerator, GoesOnWhereItWasInterrupted) {
     const auto arguments = generator("--repeats 2 -o " + at("s.json"));
-    // The scores cannot be written: all is done but that. Their file is opened and closed before the work, to see whether it can be made.
-    EXPECT_EQ(run_command("FAIL_BELOW=" + at("s.json.partial") + " FAIL_AT=3 LD_PRELOAD=" + failing_calls() +
+    // The scores cannot be written: all is done but that. Their file and its lock are opened and closed before the work, to see
+    // whether it can be made.
+    EXPECT_EQ(run_command("FAIL_BELOW=" + at("s.json.partial") + " FAIL_AT=4 LD_PRELOAD=" + failing_calls() +
                           " " + line(arguments))
                   .exit,
               1);
