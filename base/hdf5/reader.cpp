@@ -95,7 +95,7 @@ void Reader::refuse_links_away(const std::string& name, int depth) const {
         if (known && info.type == H5L_TYPE_SOFT && depth < most_links && info.u.val_size <= bytes_) {
             std::string to(info.u.val_size, '\0');
             if (H5Lget_val(file_.get(), part.c_str(), to.data(), to.size(), H5P_DEFAULT) >= 0)
-                refuse_links_away(target_of(part, to.c_str()), depth + 1);
+                refuse_links_away(target_of(part, to.substr(0, to.find('\0'))), depth + 1);
         }
         if (slash == std::string::npos) return;
     }
