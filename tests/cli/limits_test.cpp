@@ -26,8 +26,9 @@ TEST_F(Limits, NumbersOfThreadsAreBounded) {
 TEST_F(Limits, DescriptorsThatCannotBeHadAreALine) {
     const auto raw = at("raw");
     ASSERT_EQ(run_actformer("synth ntu --clips 1 -o " + raw).exit, 0);
-    expect_refused(run_command("exec 3>&-; ulimit -n 4; " + program() + " ingest ntu " + raw + " -o " + at("out")),
-                   {"no OpenCL device", "ulimit -n"});
+    expect_refused(
+        run_command("exec 3>&-; ulimit -n 4; " + program() + " ingest ntu " + raw + " -o " + at("out")),
+        {"no OpenCL device", "ulimit -n"});
 }
 
 TEST_F(Limits, NestingIsBounded) {
