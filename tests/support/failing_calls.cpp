@@ -64,10 +64,18 @@ bool fails(int error) {
     return true;
 }
 
+/// Not every closing is seen, as of folders that are listed: a descriptor may be another file's by now.
+bool is_still_below(int fd) {
+    const auto link = "/proc/self/fd/" + std::to_string(fd);
+    std::array<char, 4096> path{};
+    return ::readlink(link.c_str(), path.data(), path.size() - 1) > 0 && is_below(path.data());
+}
+
 Watched watched(int fd) {
-    return fd >= 0 && fd < static_cast<int>(descriptors.size())
-               ? descriptors[static_cast<std::size_t>(fd)].load()
-               : Watched::no;
+    if (fd < 0 || fd >= static_cast<int>(descriptors.size())) return Watched::no;
+    auto& how = descriptors[static_cast<std::size_t>(fd)];
+    if (how != Watched::no && !is_still_below(fd)) how = Watched::no;
+    return how;
 }
 
 void watch(int fd, Watched how) {
