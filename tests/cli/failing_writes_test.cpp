@@ -34,7 +34,7 @@ struct Writing {
     AfterFailure after = AfterFailure::nothing;
     std::string compared = ".*";  ///< which files have the same bytes in every run
     bool keeps_features = false;  ///< in the user's cache
-    long tried = 5;               ///< of its calls, where not all are
+    long tried = 3;               ///< of its calls, where not all are
 };
 
 struct Ran {
