@@ -52,8 +52,8 @@ int become(const Subprogram& sub, char** argv) {
     ::execv(path_of(sub).c_str(), argv);
     const bool draws = std::string_view(sub.program) == "actformer-render";
     std::fprintf(stderr, "actformer: '%s' is done by %s, which is not here: %s\n", sub.command, sub.program,
-                 draws ? "build it where OpenCV is installed (see README)"
-                       : "install the package actformer-train, or build with libtorch (see README)");
+                 draws ? "build it where OpenCV is installed (see docs/house.md)"
+                       : "install the package actformer-train, or build with libtorch (see docs/house.md)");
     return 1;
 }
 

@@ -163,7 +163,7 @@ eval::ScoreMotions prepared(const ScoreOptions& options, const eval::GenerateSet
             eval::read_labels_file(options.labels, ingest::Dataset(request.real.dataset).header().classes);
     for (const auto& path : options.generated) request.generated.push_back(eval::motions_in(path, files));
     if (options.generate.generator.empty()) return request;
-    if (!generate) throw Error("score --generator: this program has no libtorch; see README");
+    if (!generate) throw Error("score --generator: this program has no libtorch; see docs/installing.md");
     auto wanted = options.generate;
     wanted.labels = labels_to_generate(request.real);
     if (options.as_actor()) ask_as_actor(options, request.real, wanted);
