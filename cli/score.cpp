@@ -9,13 +9,13 @@
 #include <random>
 #include <set>
 
+#include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/lock.hpp"
 #include "base/files/scratch.hpp"
 #include "base/files/temporary.hpp"
 #include "base/process/interruption.hpp"
-#include "base/text/checked_json.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"

@@ -5,10 +5,10 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/files/cache.hpp"
 #include "base/files/file.hpp"
-#include "base/text/checked_json.hpp"
 #include "base/text/loose_json.hpp"
 #include "eval/stgcn/recogniser.hpp"
 #include "kernels/buffer.hpp"

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
-#include "base/text/checked_json.hpp"
 #include "base/text/json.hpp"
 #include "base/text/printable.hpp"
 

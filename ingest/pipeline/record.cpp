@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
-#include "base/text/checked_json.hpp"
 #include "base/text/csv.hpp"
 #include "base/text/json.hpp"
 #include "base/text/printable.hpp"

@@ -4,8 +4,8 @@
 
 #include <map>
 
+#include "base/checksum/checked_json.hpp"
 #include "base/checksum/checksum.hpp"
-#include "base/text/checked_json.hpp"
 #include "base/text/loose_json.hpp"
 
 namespace actformer::reports {

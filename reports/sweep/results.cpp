@@ -1,9 +1,9 @@
 #include "reports/sweep/results.hpp"
 
+#include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/lock.hpp"
-#include "base/text/checked_json.hpp"
 #include "base/text/loose_json.hpp"
 
 namespace actformer::reports {

@@ -7,11 +7,11 @@
 #include <mutex>
 #include <thread>
 
+#include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/lock.hpp"
 #include "base/process/interruption.hpp"
-#include "base/text/checked_json.hpp"
 #include "base/threads/thread.hpp"
 #include "reports/sweep/kept.hpp"
 

@@ -7,12 +7,12 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/temporary.hpp"
 #include "base/process/interruption.hpp"
 #include "base/process/process.hpp"
-#include "base/text/checked_json.hpp"
 #include "base/text/loose_json.hpp"
 #include "reports/sweep/kept.hpp"
 #include "reports/sweep/run.hpp"

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
-#include "base/text/checked_json.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/error_of.hpp"
 #include "tests/support/temp_dir.hpp"

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <random>
 
-#include "base/text/checked_json.hpp"
+#include "base/checksum/checked_json.hpp"
 #include "reports/page/curves.hpp"
 #include "reports/page/exports.hpp"
 #include "reports/page/html.hpp"

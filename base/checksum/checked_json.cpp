@@ -1,4 +1,4 @@
-#include "base/text/checked_json.hpp"
+#include "base/checksum/checked_json.hpp"
 
 #include "base/checksum/checksum.hpp"
 
