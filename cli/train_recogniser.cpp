@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "cli/commands.hpp"
 #include "cli/say.hpp"
@@ -30,11 +31,14 @@ nlohmann::ordered_json to_json(const model::RecogniserResult& result) {
 
 void print_text(const model::RecogniserResult& result, const std::string& split) {
     const auto& training = result.training;
-    if (result.confusion.samples() > 0)
-        say("{}accuracy on {}: {:.2f} %, the mean over classes of the windows recognised ({:.2f} % of all "
+    if (result.confusion.samples() > 0) {
+        std::istringstream table(result.confusion.table(result.classes));
+        for (std::string line; std::getline(table, line);) say("{}\n", line);
+        say("accuracy on {}: {:.2f} %, the mean over classes of the windows recognised ({:.2f} % of all "
             "{})\n",
-            result.confusion.table(result.classes), split, 100 * result.confusion.mean_class_accuracy(),
-            100 * result.confusion.sample_accuracy(), result.confusion.samples());
+            split, 100 * result.confusion.mean_class_accuracy(), 100 * result.confusion.sample_accuracy(),
+            result.confusion.samples());
+    }
     say("{}: after epoch {}\n", training.weights.string(), training.epochs);
     if (training.best)
         say("{}: after epoch {}, {:.2f} %\n", training.best_weights.string(), training.best->epoch,
