@@ -1,7 +1,5 @@
 #include "model/generators/adversarial/gan_settings.hpp"
 
-#include <algorithm>
-
 #include "base/error.hpp"
 #include "model/train/key_table.hpp"
 
@@ -44,6 +42,12 @@ const KeyTable<GanSettings>& table() {
     return all;
 }
 
+void expect_below(double bound, const char* key, double share) {
+    if (share >= bound)
+        throw Error("{}: {} leaves nothing to tell how motions were recorded; less than {} does", key, share,
+                    bound);
+}
+
 }  // namespace
 
 std::vector<Key> gan_keys() {
@@ -54,10 +58,8 @@ GanSettings gan_settings(const Config& config) {
     auto settings = table().read(config);
     settings.frames = static_cast<std::uint32_t>(config.get<std::int64_t>("frames"));
     settings.seed = static_cast<std::uint64_t>(config.get<std::int64_t>("seed"));
-    if (settings.mirror >= 0.5 || settings.turn >= 1)
-        throw Error("{}: {} leaves nothing to tell how motions were recorded; less than {} does",
-                    settings.mirror >= 0.5 ? "mirror" : "turn", std::max(settings.mirror, settings.turn),
-                    settings.mirror >= 0.5 ? 0.5 : 1.0);
+    expect_below(0.5, "mirror", settings.mirror);
+    expect_below(1, "turn", settings.turn);
     const auto& device = config.get<std::string>("device");
     if (settings.bf16 && !device.starts_with("cuda"))
         throw Error("bf16: true is for CUDA; with device: {}, leave it out", device);
