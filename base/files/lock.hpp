@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/files/descriptor.hpp"
+
 namespace actformer {
 
 /// Held while it lives, by way of a file that stays there. It goes with the process that holds it, killed or not. Where the file
@@ -23,13 +25,9 @@ class FileLock {
     /// Whether some process holds it now. Makes no file.
     static bool is_held(const std::filesystem::path& path);
 
-    ~FileLock();
-    FileLock(FileLock&& other) noexcept;
-    FileLock& operator=(FileLock&& other) noexcept;
-
   private:
     FileLock() = default;
-    int file_ = -1;
+    Descriptor file_;
 };
 
 }  // namespace actformer

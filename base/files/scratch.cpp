@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <utility>
 
 #include "base/error.hpp"
 
@@ -20,15 +19,14 @@ namespace {
 
 constexpr const char* scratch_prefix = "actformer-scratch-";
 
-/// A lock on the folder, or -1 where another process holds it, or where it is no folder of this user's.
-int lock_on(const fs::path& folder) {
-    const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+/// A lock on the folder; closed where another process holds it, or where it is no folder of this user's.
+Descriptor lock_on(const fs::path& folder) {
+    Descriptor file(folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW);
     struct stat status {};
-    if (file >= 0 && ::fstat(file, &status) == 0 && status.st_uid == ::geteuid() &&
-        ::flock(file, LOCK_EX | LOCK_NB) == 0)
+    if (file.get() >= 0 && ::fstat(file.get(), &status) == 0 && status.st_uid == ::geteuid() &&
+        ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
         return file;
-    if (file >= 0) ::close(file);
-    return -1;
+    return {};
 }
 
 /// Removes what processes left that are no more: nobody holds it.
@@ -36,11 +34,10 @@ void remove_stale(const fs::path& below) {
     std::error_code error;
     for (fs::directory_iterator entry(below, error), end; !error && entry != end; entry.increment(error)) {
         if (!entry->path().filename().string().starts_with(scratch_prefix)) continue;
-        const int lock = lock_on(entry->path());
-        if (lock < 0) continue;
+        const auto lock = lock_on(entry->path());
+        if (lock.get() < 0) continue;
         std::error_code ignored;
         fs::remove_all(entry->path(), ignored);
-        ::close(lock);
     }
 }
 
@@ -61,8 +58,8 @@ Scratch::Scratch(const std::string& purpose, const fs::path& where) {
     for (int attempt = 0; attempt < 5; ++attempt) {
         folder_ = std::make_unique<Temporary>(make);
         lock_ = lock_on(path());
-        if (lock_ >= 0 && fs::exists(path())) return;
-        if (lock_ >= 0) ::close(std::exchange(lock_, -1));
+        if (lock_.get() >= 0 && fs::exists(path())) return;
+        lock_.close();
         fs::remove(path());
     }
     folder_ = std::make_unique<Temporary>(make);
@@ -71,7 +68,6 @@ Scratch::Scratch(const std::string& purpose, const fs::path& where) {
 Scratch::~Scratch() {
     std::error_code ignored;
     fs::remove_all(path(), ignored);
-    if (lock_ >= 0) ::close(lock_);
 }
 
 }  // namespace actformer

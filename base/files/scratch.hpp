@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "base/files/descriptor.hpp"
 #include "base/files/temporary.hpp"
 
 namespace actformer {
@@ -23,7 +24,7 @@ class Scratch {
 
   private:
     std::unique_ptr<Temporary> folder_;
-    int lock_ = -1;  ///< held on the folder itself: its process lives
+    Descriptor lock_;  ///< held on the folder itself: its process lives
 };
 
 }  // namespace actformer

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/files/descriptor.hpp"
 #include "base/process/child.hpp"
 
 namespace actformer {
@@ -17,20 +18,10 @@ struct Pipe {
     Pipe() {
         int ends[2];
         if (::pipe2(ends, O_CLOEXEC) != 0) throw Error("no pipe can be made: {}", std::strerror(errno));
-        from = ends[0];
-        to = ends[1];
+        from = Descriptor(ends[0]);
+        to = Descriptor(ends[1]);
     }
-    ~Pipe() {
-        ::close(from);
-        close_to();
-    }
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    void close_to() {
-        if (to >= 0) ::close(to);
-        to = -1;
-    }
-    int from = -1, to = -1;
+    Descriptor from, to;
 };
 
 }  // namespace
@@ -38,12 +29,12 @@ struct Pipe {
 std::optional<std::string> output_of(const std::vector<std::string>& command,
                                      const std::map<std::string, std::string>& more) {
     Pipe pipe;
-    Child child(command, pipe.to, STDERR_FILENO, more);
-    pipe.close_to();
+    Child child(command, pipe.to.get(), STDERR_FILENO, more);
+    pipe.to.close();
     std::string said;
     std::array<char, 4096> piece;
     for (;;) {
-        const auto got = ::read(pipe.from, piece.data(), piece.size());
+        const auto got = ::read(pipe.from.get(), piece.data(), piece.size());
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) break;
         said.append(piece.data(), static_cast<std::size_t>(got));

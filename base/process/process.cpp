@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "base/error.hpp"
+#include "base/files/descriptor.hpp"
 #include "base/process/child.hpp"
 
 namespace actformer {
@@ -29,19 +30,13 @@ std::string last_line(const std::filesystem::path& path, std::uintmax_t start) {
 }  // namespace
 
 ProcessResult run_process(const std::vector<std::string>& command, const std::filesystem::path& log) {
-    const int file = ::open(log.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0644);
-    if (file < 0) throw Error("{}: cannot be written: {}", log.string(), std::strerror(errno));
+    Descriptor file(::open(log.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0644));
+    if (file.get() < 0) throw Error("{}: cannot be written: {}", log.string(), std::strerror(errno));
     std::error_code error;
     const auto start = std::filesystem::file_size(log, error);
-    std::optional<Child> child;
-    try {
-        child.emplace(command, file, file);
-    } catch (...) {
-        ::close(file);
-        throw;
-    }
-    ::close(file);
-    const int exit = child->wait();
+    Child child(command, file.get(), file.get());
+    file.close();
+    const int exit = child.wait();
     return {exit, last_line(log, start)};
 }
 
