@@ -92,13 +92,13 @@ std::uint64_t files_of(double hours) {
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::round(hours * 3600 / seconds_a_file)));
 }
 
-void make_folders(const fs::path& folder, std::uint64_t files) {
+void make_recording_folders(const fs::path& folder, std::uint64_t files) {
     for (std::uint64_t file = 0; file < files; file += 100)
         fs::create_directories((folder / "Bench" / name_of(file)).parent_path());
 }
 
 void make_raw(const fs::path& folder, std::uint64_t files) {
-    make_folders(folder, files);
+    make_recording_folders(folder, files);
     parallel_for(files, thread_count(0),
                  [&](std::size_t file, unsigned) { make_recording(folder / "Bench" / name_of(file), file); });
     make_annotations(folder / "train.json", files);
@@ -106,7 +106,7 @@ void make_raw(const fs::path& folder, std::uint64_t files) {
 
 /// Links the `made` recordings over and over under new names.
 void link_raw(const fs::path& from, const fs::path& folder, std::uint64_t made, std::uint64_t files) {
-    make_folders(folder, files);
+    make_recording_folders(folder, files);
     for (std::uint64_t file = 0; file < files; ++file)
         fs::create_hard_link(from / "Bench" / name_of(file % made), folder / "Bench" / name_of(file));
     make_annotations(folder / "train.json", files);

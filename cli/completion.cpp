@@ -72,12 +72,17 @@ void for_each_value(const std::vector<Place>& places, const Add& add) {
                 add(place, option, values);
 }
 
+/// The same for an option of a place, by any of its names.
+std::string patterns_of(const Place& place, const OptionHelp& option, const char* between) {
+    std::vector<std::string> patterns;
+    for (const auto& word : option.words) patterns.push_back(shell_quoted(place.at + " " + word));
+    return fmt::format("{}", fmt::join(patterns, between));
+}
+
 std::string bash_values(const std::vector<Place>& places) {
     std::string text;
     for_each_value(places, [&](const Place& place, const OptionHelp& option, const auto& values) {
-        std::vector<std::string> patterns;
-        for (const auto& word : option.words) patterns.push_back(shell_quoted(place.at + " " + word));
-        text += fmt::format("    {}) values={}{} ;;\n", fmt::join(patterns, " | "),
+        text += fmt::format("    {}) values={}{} ;;\n", patterns_of(place, option, " | "),
                             shell_quoted(fmt::format("{}", fmt::join(values, " "))),
                             option.shipped.empty() ? "" : " files=1");
     });
@@ -151,11 +156,10 @@ std::string zsh(const std::vector<Place>& places) {
     }
     std::string values;
     for_each_value(places, [&](const Place& place, const OptionHelp& option, const auto& some) {
-        std::vector<std::string> patterns, each;
-        for (const auto& word : option.words) patterns.push_back(shell_quoted(place.at + " " + word));
+        std::vector<std::string> each;
         for (const auto& one : some) each.push_back(shell_quoted(one));
-        values += fmt::format("    {}) values=({}){} ;;\n", fmt::join(patterns, "|"), fmt::join(each, " "),
-                              option.shipped.empty() ? "" : " files=1");
+        values += fmt::format("    {}) values=({}){} ;;\n", patterns_of(place, option, "|"),
+                              fmt::join(each, " "), option.shipped.empty() ? "" : " files=1");
     });
     return fmt::format(R"(#compdef actformer
 _actformer() {{

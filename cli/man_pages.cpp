@@ -4,7 +4,6 @@
 
 #include <sstream>
 
-#include "base/error.hpp"
 #include "base/files/file.hpp"
 
 namespace actformer::cli {
@@ -138,9 +137,7 @@ class Pages {
 }  // namespace
 
 std::size_t write_man_pages(const CommandHelp& root, const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw Error("{}: cannot be made: {}", folder.string(), error.message());
+    make_folders(folder);
     Pages pages(folder);
     pages.write(root, "");
     return pages.count();

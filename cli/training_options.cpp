@@ -1,8 +1,8 @@
 #include "cli/training_options.hpp"
 
 #include <fmt/format.h>
-#include "cli/say.hpp"
 
+#include "cli/say.hpp"
 #include "cli/shipped_option.hpp"
 
 namespace actformer::cli {

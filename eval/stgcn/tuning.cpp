@@ -81,10 +81,10 @@ std::filesystem::path tiles_file() {
 }
 
 Tiles load_tiles(const kernels::DeviceInfo& device) {
-    if (std::filesystem::exists(tiles_file()) && read_file().empty())
+    const auto json = read_file();
+    if (json.empty() && std::filesystem::exists(tiles_file()))
         throw Error("{}: damaged; remove it, or measure again with actformer bench features --tune",
                     tiles_file().string());
-    const auto json = read_file();
     const auto found = json.find(key_of(device));
     if (found == json.end()) return default_tiles(device);
     try {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "base/error.hpp"
 
@@ -38,18 +39,10 @@ std::vector<std::string> words_of(const std::string& name) {
 
 /// The words with left and right exchanged.
 std::vector<std::string> exchanged(std::vector<std::string> words) {
-    static const std::vector<std::pair<std::string, std::string>> sides{{"left", "right"}, {"l", "r"}};
+    static const std::map<std::string, std::string> others{
+        {"left", "right"}, {"right", "left"}, {"l", "r"}, {"r", "l"}};
     for (auto& word : words)
-        for (const auto& [left, right] : sides) {
-            if (word == left) {
-                word = right;
-                break;
-            }
-            if (word == right) {
-                word = left;
-                break;
-            }
-        }
+        if (const auto other = others.find(word); other != others.end()) word = other->second;
     return words;
 }
 

@@ -43,8 +43,9 @@ std::vector<std::string> drop_empty_classes(DatasetFile& file, const std::set<st
         const auto path = folder / shard.file;
         const auto checksum = hdf5::Reader(path).contents();
         if (checksum == shard.checksum) write_whole(path, renumber(path, renumbered, scratch), Sync::later);
-        shard.checksum = checksum == shard.checksum ? hdf5::Reader(path).contents() : checksum;
-        shard.metadata = hdf5::Reader(path).metadata("motion");
+        const hdf5::Reader now(path);
+        shard.checksum = checksum == shard.checksum ? now.contents() : checksum;
+        shard.metadata = now.metadata("motion");
     }
     file.header.classes = std::move(kept);
     return dropped;

@@ -137,11 +137,14 @@ struct PipelineOnDevice : testing::Test {
         return text;
     }
 
-    /// More than one tranche: where a format stops, the first is kept.
-    void write_more_than_a_tranche() const {
+    /// An ingest of more than one tranche that stops in the second: the first is kept.
+    void run_until_it_stops() {
         for (int i = 0; i < 5000; ++i)
             write_file(dir / fmt::format("raw/{:04}.lines", i), fmt::format("n{} 1 2\n", i));
         write_file(dir / "raw/z.lines", many("z", 300) + "stop\n" + many("y", 20));
+        LineFormat stopped;
+        stopped.stops = true;
+        EXPECT_THROW(run(stopped), Error);
     }
 
     /// Names and contents of all files below `folder`.
@@ -231,23 +234,18 @@ TEST_F(PipelineOnDevice, HoldsFewClipsOfALargeFileAtOnce) {
 }
 
 TEST_F(PipelineOnDevice, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
-    write_more_than_a_tranche();
-    LineFormat whole, stopped;
-    run(whole, "whole");
-    stopped.stops = true;
-    EXPECT_THROW(run(stopped), Error);
+    run_until_it_stops();
     EXPECT_EQ(alive, 0);
-    LineFormat resumed;
+    LineFormat whole, resumed;
+    run(whole, "whole");
     EXPECT_EQ(run(resumed).resumed_files, 4096U);
     EXPECT_EQ(contents(dir / "out"), contents(dir / "whole"));
 }
 
 TEST_F(PipelineOnDevice, WhatChangedBetweenAStopAndTheNextRunIsMadeAgainAndNamed) {
-    write_more_than_a_tranche();
-    LineFormat whole, stopped;
+    run_until_it_stops();
+    LineFormat whole;
     run(whole, "whole");
-    stopped.stops = true;
-    EXPECT_THROW(run(stopped), Error);
     fs::rename(dir / "out.partial", dir / "kept");
     const auto journal = read_file(dir / "kept/journal"), shard = read_file(dir / "kept/data/shard-00000.h5");
     const auto second = journal.find('\n') + 1;
@@ -284,10 +282,7 @@ TEST_F(PipelineOnDevice, WhatChangedBetweenAStopAndTheNextRunIsMadeAgainAndNamed
 }
 
 TEST_F(PipelineOnDevice, FlippedBytesInWhatAStopLeftAreNoticed) {
-    write_more_than_a_tranche();
-    LineFormat stopped;
-    stopped.stops = true;
-    EXPECT_THROW(run(stopped), Error);
+    run_until_it_stops();
     fs::rename(dir / "out.partial", dir / "kept");
     for (const auto* file : {"journal", "data/shard-00000.h5"})
         flip_and_read(file, dir / "kept" / file, flips_to_make(2), {file}, [&]() -> FlipOutcome {
