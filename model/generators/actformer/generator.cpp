@@ -1,5 +1,7 @@
 #include "model/generators/actformer/generator.hpp"
 
+#include <ATen/core/grad_mode.h>
+
 #include "base/error.hpp"
 #include "model/generators/finish.hpp"
 #include "model/generators/graph/node_convolution.hpp"
@@ -120,6 +122,18 @@ at::Tensor Generator::fused_transformed(at::Tensor x) const {
     return x;
 }
 
+/// x (N, S, T+1, W): every frame's token becomes its neighbours' mean, weighed by a Gaussian up to four deviations away. What
+/// follows takes frames one by one, and can give no smoother motion than its tokens are. The class's token, the first, has been
+/// of use before.
+at::Tensor Generator::smoothed(const at::Tensor& x) const {
+    if (settings_.smooth == 0) return x;
+    const auto frames = at::arange(x.size(2), x.options().requires_grad(false)) / settings_.smooth;
+    const auto apart = (frames.unsqueeze(0) - frames.unsqueeze(1)).square();
+    const auto weights = apart.mul(-0.5).exp() * apart.le(16);
+    weights.select(1, 0).zero_();
+    return at::matmul(weights / weights.sum(1, true), x);
+}
+
 /// x (N, S, T+1, W), S the tokens a frame.
 at::Tensor Generator::motion(const at::Tensor& x) const {
     if (takes_fused_path(x) && settings_.body == Body::transformer &&
@@ -188,8 +202,8 @@ at::Tensor Generator::forward(const at::Tensor& latent, const at::Tensor& labels
                     settings_.prior.channels);
     if (t > settings_.frames)
         throw Error("{} frames: the generator was made for at most {}", t, settings_.frames);
-    return takes_fused_path(latent) ? motion(fused_transformed(fused_tokens(latent, labels)))
-                                    : motion(transformed(tokens(latent, labels)));
+    return motion(smoothed(takes_fused_path(latent) ? fused_transformed(fused_tokens(latent, labels))
+                                                    : transformed(tokens(latent, labels))));
 }
 
 }  // namespace actformer::model

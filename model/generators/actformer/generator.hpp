@@ -38,6 +38,7 @@ class Generator : public GanGenerator {
     at::Tensor transformed(at::Tensor x) const;
     at::Tensor fused_tokens(const at::Tensor& latent, const at::Tensor& labels) const;
     at::Tensor fused_transformed(at::Tensor x) const;
+    at::Tensor smoothed(const at::Tensor& x) const;
     at::Tensor motion(const at::Tensor& x) const;
     at::Tensor positions() const;
     at::Tensor block(const at::Tensor& x, const std::string& prefix) const;

@@ -51,6 +51,7 @@ void check(const GeneratorSettings& s) {
     if (!(s.prior.length_scale > 0)) throw Error("generator: length_scale must be above 0 frames");
     if (s.prior.streams != 1 && s.prior.streams != s.persons)
         throw Error("generator: {} latents for {} persons", s.prior.streams, s.persons);
+    if (!(s.smooth >= 0)) throw Error("generator: smooth: {} frames; 0 or more", s.smooth);
 }
 
 void check(const DiscriminatorSettings& s) {
@@ -82,6 +83,7 @@ std::vector<Key> network_keys() {
          interaction_names},
         {"body", std::string("transformer"), "from token to pose: transformer (linear) or graphconv", 0, 0,
          body_names},
+        {"smooth", 0.0, "frames: deviation of a Gaussian over the tokens before the head; 0 for none", 0, 60},
         {"d_width", Number{32}, "channels of the discriminator's first layer", 1, 1024},
         {"d_differences", Number{1},
          "over frames, that the discriminator sees: 1 velocities, 2 accelerations too", 1, 2},
@@ -113,6 +115,7 @@ GeneratorSettings generator_settings(const Config& config, ingest::Representatio
     s.positions_start = named<PositionsStart>(config, "pe_start", start_names);
     s.interaction = named<Interaction>(config, "interaction", interaction_names);
     s.body = named<Body>(config, "body", body_names);
+    s.smooth = config.get<double>("smooth");
     check(s);
     return s;
 }

@@ -1,4 +1,5 @@
 // ActFormer's networks: counts, coarsening, both paths against each other and against a computation in NumPy, every switch.
+#include <ATen/core/grad_mode.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -110,6 +111,13 @@ std::vector<Networks> switched() {
     add(2, [](Networks& n) {
         n.g.positions = Positions::concat;
         n.g.positions_start = PositionsStart::sinusoids;
+    });
+    add(2, [](Networks& n) { n.g.smooth = 1.5; });
+    add(2, [](Networks& n) {
+        n.g.smooth = 3;
+        n.g.interaction = Interaction::concat;
+        n.g.body = Body::graphconv;
+        n.g.representation = ingest::Representation::rot6d;
     });
     return all;
 }
@@ -386,6 +394,7 @@ TEST_F(ActformerNetworks, AgreeWithNumPy) {
             {"depth", gs.depth},
             {"interaction", interactions[static_cast<int>(gs.interaction)]},
             {"body", bodies[static_cast<int>(gs.body)]},
+            {"smooth", gs.smooth},
             {"differences", ds.differences},
             {"gain", ds.difference_gain},
             {"d_persons", persons_in[static_cast<int>(ds.persons_in)]},

@@ -162,7 +162,12 @@ def generate(case, net, latent, label):
         for s in range(streams):
             x[s] = block(net, x[s], i, case['heads'])
         i += 1
-    x = net.norm(x[:, 1:], net.spectral('norm.weight'), net.w['norm.bias'])
+    x = x[:, 1:]
+    if case['smooth']:
+        far = 4 * case['smooth']
+        kernel = [[np.exp(-((a - b) / case['smooth']) ** 2 / 2) if abs(a - b) <= far else 0 for b in range(t)] for a in range(t)]
+        x = np.stack([[sum(k * v for k, v in zip(row, each)) / sum(row) for row in kernel] for each in x])
+    x = net.norm(x, net.spectral('norm.weight'), net.w['norm.bias'])
     fine, middle, _ = levels(case)
     out = np.zeros((persons * numbers, t, joints))
     for frame in range(t):
