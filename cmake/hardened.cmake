@@ -3,6 +3,6 @@
 # addresses that are complete at the start and cannot be written after. Sanitizers bring their own checks, and do not go with these.
 option(ACTFORMER_HARDENED "Build with the compiler's and the linker's protections" ON)
 if(ACTFORMER_HARDENED AND NOT ACTFORMER_SANITIZE)
-  add_compile_options(-fstack-protector-strong -fPIE $<$<CONFIG:Release,RelWithDebInfo>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release,RelWithDebInfo>:-D_FORTIFY_SOURCE=2>)
+  add_compile_options(-fstack-protector-strong $<$<CONFIG:Release,RelWithDebInfo>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release,RelWithDebInfo>:-D_FORTIFY_SOURCE=2>)
   add_link_options($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:-pie> -Wl,-z,relro,-z,now)
 endif()

@@ -1,6 +1,6 @@
 # What `cmake --install` puts where. The tree may be moved as a whole: the program finds what belongs to it by where it lies.
 #
-#   bin/actformer                       libexec/actformer/actformer-render, actformer-train
+#   bin/actformer                       libexec/actformer/actformer-render, actformer-train and its .so
 #   share/actformer/model/configs       share/actformer/reports/sweeps
 #   share/man/man1                      share/doc/actformer
 #   share/{bash-completion/completions,zsh/site-functions,fish/vendor_completions.d}
@@ -17,7 +17,7 @@ endforeach()
 install(TARGETS actformer DESTINATION bin COMPONENT program)
 install(TARGETS actformer-render DESTINATION libexec/actformer COMPONENT program)
 if(TARGET actformer-train)
-  install(TARGETS actformer-train DESTINATION libexec/actformer COMPONENT training)
+  install(TARGETS actformer-train actformer-train.so DESTINATION libexec/actformer COMPONENT training)
 endif()
 
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION share/doc/actformer COMPONENT docs)
