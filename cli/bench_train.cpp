@@ -224,7 +224,9 @@ void add_bench_train(CLI::App& bench) {
                      "Program that times the method in eager PyTorch, given --peers")
         ->needs("--method")
         ->check(CLI::ExistingFile);
-    command->add_option("key=value", options->overrides, "The method's settings")->needs("--method");
+    command->add_option("overrides", options->overrides, "The method's settings, as in batch=32")
+        ->type_name("KEY=VALUE")
+        ->needs("--method");
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer bench train\n"

@@ -62,6 +62,15 @@ std::string target_of(const std::string& link, const std::string& to) {
     return to.starts_with('/') || folder == std::string::npos ? to : link.substr(0, folder + 1) + to;
 }
 
+/// From 1.12 on the library wants to know which fields.
+herr_t info_by_name(hid_t file, const char* name, H5O_info_t& info) {
+#if H5_VERSION_GE(1, 12, 0)
+    return H5Oget_info_by_name(file, name, &info, H5O_INFO_BASIC, H5P_DEFAULT);
+#else
+    return H5Oget_info_by_name(file, name, &info, H5P_DEFAULT);
+#endif
+}
+
 }  // namespace
 
 Reader::Reader(const std::filesystem::path& path)
@@ -104,8 +113,7 @@ void Reader::refuse_links_away(const std::string& name, int depth) const {
 bool Reader::is_array(const std::string& name) const {
     refuse_links_away(name);
     H5O_info_t info;
-    return H5Oget_info_by_name(file_.get(), name.c_str(), &info, H5P_DEFAULT) >= 0 &&
-           info.type == H5O_TYPE_DATASET;
+    return info_by_name(file_.get(), name.c_str(), info) >= 0 && info.type == H5O_TYPE_DATASET;
 }
 
 Reader::Array Reader::open(const std::string& name) const {

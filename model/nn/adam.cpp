@@ -1,6 +1,7 @@
 #include "model/nn/adam.hpp"
 
 #include <ATen/Parallel.h>
+#include <ATen/core/grad_mode.h>
 
 #include <cmath>
 

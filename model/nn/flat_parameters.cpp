@@ -1,5 +1,6 @@
 #include "model/nn/flat_parameters.hpp"
 
+#include <ATen/core/grad_mode.h>
 #include <algorithm>
 
 namespace actformer::model {

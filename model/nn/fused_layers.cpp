@@ -1,6 +1,7 @@
 #include "model/nn/fused_layers.hpp"
 
 #include <ATen/Parallel.h>
+#include <ATen/core/grad_mode.h>
 #include <torch/csrc/autograd/custom_function.h>
 
 #include "base/error.hpp"

@@ -1,5 +1,7 @@
 #include "model/nn/sgd.hpp"
 
+#include <ATen/core/grad_mode.h>
+
 namespace actformer::model {
 
 Sgd::Sgd(std::vector<at::Tensor> parameters, const SgdSettings& settings)

@@ -1,6 +1,7 @@
 #include "model/nn/tensor_array.hpp"
 
 #include <ATen/ATen.h>
+#include <ATen/core/grad_mode.h>
 
 #include "base/error.hpp"
 #include "model/nn/tensor_numbers.hpp"

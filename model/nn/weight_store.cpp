@@ -1,6 +1,7 @@
 #include "model/nn/weight_store.hpp"
 
 #include <ATen/CPUGeneratorImpl.h>
+#include <ATen/core/grad_mode.h>
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "model/recognisers/stgcn_net.hpp"
 
 #include <ATen/CPUGeneratorImpl.h>
+#include <ATen/core/grad_mode.h>
 
 #include "base/error.hpp"
 #include "base/random/splitmix.hpp"

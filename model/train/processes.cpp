@@ -1,5 +1,6 @@
 #include "model/train/processes.hpp"
 
+#include <ATen/core/grad_mode.h>
 #include <chrono>
 
 #include "base/error.hpp"
@@ -68,6 +69,12 @@ std::unique_ptr<Collective> collective_on(const at::Device& device,
                 device.is_cuda() ? "NCCL for GPUs" : "Gloo for processors (Debian: libgloo-dev)");
 }
 
+/// Versions that know libuv want it unless told otherwise, and Debian builds them without.
+template <typename Options>
+void without_libuv(Options& options) {
+    if constexpr (requires { options.useLibUV; }) options.useLibUV = false;
+}
+
 }  // namespace
 
 struct Processes::Group {
@@ -82,6 +89,7 @@ Processes::Processes(Place place, const at::Device& device)
     options.isServer = place_.leads() && !place_.store_runs;
     if (!place_.store_runs) options.numWorkers = place_.size;
     options.timeout = std::chrono::minutes(5);
+    without_libuv(options);
     try {
         group_->tcp = c10::make_intrusive<c10d::TCPStore>(place_.address, options);
         group_->store = c10::make_intrusive<c10d::PrefixStore>(place_.prefix, group_->tcp);

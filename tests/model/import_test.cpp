@@ -1,4 +1,5 @@
 // `actformer import`: files that PyTorch itself wrote, and what their users get wrong.
+#include <ATen/core/grad_mode.h>
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"

@@ -1,6 +1,7 @@
 #include "model/generators/action2motion/learner.hpp"
 
 #include <ATen/Parallel.h>
+#include <ATen/core/grad_mode.h>
 #include <fmt/format.h>
 
 #include "model/cpu/random_kernel.hpp"

@@ -1,6 +1,7 @@
 #include "model/generators/action2motion/maker.hpp"
 
 #include <ATen/Parallel.h>
+#include <ATen/core/grad_mode.h>
 
 #include "model/cpu/random_kernel.hpp"
 #include "model/nn/module_arrays.hpp"

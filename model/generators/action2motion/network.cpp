@@ -1,5 +1,6 @@
 #include "model/generators/action2motion/network.hpp"
 
+#include <ATen/core/grad_mode.h>
 #include <fmt/format.h>
 
 #include "model/generators/action2motion/body.hpp"

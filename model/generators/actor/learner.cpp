@@ -1,6 +1,7 @@
 #include "model/generators/actor/learner.hpp"
 
 #include <ATen/Parallel.h>
+#include <ATen/core/grad_mode.h>
 
 #include "model/nn/module_arrays.hpp"
 #include "model/nn/tensor_array.hpp"

@@ -1,6 +1,7 @@
 #include "model/generators/actor/method.hpp"
 
 #include <ATen/Parallel.h>
+#include <ATen/core/grad_mode.h>
 
 #include "model/generators/actor/layers.hpp"
 #include "model/generators/actor/learner.hpp"

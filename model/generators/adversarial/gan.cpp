@@ -1,5 +1,7 @@
 #include "model/generators/adversarial/gan.hpp"
 
+#include <ATen/core/grad_mode.h>
+
 #include "base/error.hpp"
 #include "model/nn/autocast.hpp"
 #include "model/nn/module_arrays.hpp"

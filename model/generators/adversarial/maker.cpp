@@ -1,5 +1,6 @@
 #include "model/generators/adversarial/maker.hpp"
 
+#include <ATen/core/grad_mode.h>
 #include <optional>
 
 #include "model/nn/module_arrays.hpp"

@@ -1,5 +1,7 @@
 #include "model/generators/csgn/generator.hpp"
 
+#include <ATen/core/grad_mode.h>
+
 #include "base/error.hpp"
 #include "model/generators/csgn/sums.hpp"
 #include "model/generators/finish.hpp"

@@ -47,7 +47,7 @@ TEST(NpzWriter, NumpyReadsItWithoutPickles) {
             "a = f['a clip']\n"
             "print(a.shape, a.dtype, (a.ravel() == numpy.arange(24, dtype='f4') / numpy.float32(3)).all())\n"
             "print(f['fps'].shape, float(f['fps']), f['labels'].tolist(), f['labels'].dtype)\n"
-            "print([ascii(t) for t in f['names']], f['none'].shape)",
+            "print([ascii(str(t)) for t in f['names']], f['none'].shape)",
             dir),
         "['a clip', 'fps', 'labels', 'names', 'none']\n"
         "(2, 2, 2, 3) float32 True\n"

@@ -2,6 +2,7 @@
 #include "model/recognisers/stgcn_net.hpp"
 
 #include <ATen/Parallel.h>
+#include <ATen/core/grad_mode.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,6 +1,7 @@
 // The layers of ActFormer on processors: gradients against finite differences and values against libtorch's operators, in
 // double, where sums of up to some thousand products differ from the other order's by less than 1e-9.
 #include <ATen/Parallel.h>
+#include <ATen/core/grad_mode.h>
 #include <gtest/gtest.h>
 
 #include "model/generators/graph/coarsening.hpp"

@@ -1,4 +1,5 @@
 // Action2Motion's networks: counts, both paths against each other, and against an independent computation in PyTorch.
+#include <ATen/core/grad_mode.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // ACTOR's networks: counts, both paths against each other, dropout included, and against PyTorch's.
 #include "model/generators/actor/network.hpp"
 
+#include <ATen/core/grad_mode.h>
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"

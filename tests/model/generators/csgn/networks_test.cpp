@@ -1,4 +1,5 @@
 // CSGN's networks: counts, graphs, both paths against each other and against a reference in PyTorch.
+#include <ATen/core/grad_mode.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
