@@ -167,9 +167,9 @@ void add_scores(Json& row, const Json& scored, const Classes& classes) {
 }
 
 /// A cell's name as people say it: "Table 3 · full · NTU-1P".
-std::string cell_in_words(const std::string& name) {
+std::string cell_in_words(const std::string& name, const std::vector<PaperTable>& tables) {
     try {
-        return words_of(find_cell(name));
+        return words_of(find_cell(name, tables));
     } catch (const Error&) {
         return name;
     }
@@ -219,7 +219,7 @@ class Details {
                  {"fills", Json::array()},
                  {"status", row.status},
                  {"why", row.why}};
-        for (const auto& cell : row.fills) out["fills"].push_back(cell_in_words(cell));
+        for (const auto& cell : row.fills) out["fills"].push_back(cell_in_words(cell, measured_.tables));
         const auto* run = row.shown();
         static const Json none;
         const auto& scored = run ? run->scored : none;

@@ -78,7 +78,7 @@ std::string latex_heading(const Metric& metric) {
                               : metric.better == eval::Direction::higher ? " $\\uparrow$"
                                                                          : " $\\rightarrow$";
     if (low == std::string::npos) return latex_text(text) + arrow;
-    return latex_text(text.substr(0, low)) + "$_{" + text.substr(low + 1) + "}$" + arrow;
+    return latex_text(text.substr(0, low)) + "$_{" + latex_text(text.substr(low + 1)) + "}$" + arrow;
 }
 
 std::string latex_cell(const CellGroup& group, const Figures& figures) {

@@ -7,6 +7,7 @@
 #include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/text/loose_json.hpp"
+#include "reports/tables/own_tables.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -20,6 +21,17 @@ std::vector<Json> objects(const Json& object, const char* key) {
     std::ranges::copy_if(loose::list(object, key), std::back_inserter(out),
                          [](const Json& one) { return one.is_object(); });
     return out;
+}
+
+void add_own_tables(std::vector<PaperTable>& tables, const Json& results, const fs::path& folder) {
+    const auto text = loose::text(results, "tables");
+    if (text.empty()) return;
+    const YamlPlace place{(folder / "results.json").string() + ": tables"};
+    try {
+        tables = with_own_tables(std::move(tables), YAML::Load(text), place);
+    } catch (const YAML::Exception& e) {
+        throw Error("{}: line {}: {}", place.file, e.mark.line + 1, e.msg);
+    }
 }
 
 Json read_results(const fs::path& folder) {
@@ -135,6 +147,7 @@ Measured read_measured(const std::vector<fs::path>& folders) {
     Measured out;
     for (const auto& folder : folders) {
         const auto json = read_results(folder);
+        add_own_tables(out.tables, json, folder);
         for (const auto& row : objects(json, "rows"))
             out.rows.push_back(read_row(row, loose::text(json, "sweep"), fs::absolute(folder), out.notices));
     }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ingest/dataset/origin.hpp"
+#include "reports/tables/paper_tables.hpp"
 
 namespace actformer::reports {
 
@@ -35,11 +36,12 @@ struct MeasuredRow {
 
 struct Measured {
     std::vector<MeasuredRow> rows;
-    std::vector<std::string> notices;  ///< what is missing or cannot be read, a line each
+    std::vector<std::string> notices;                 ///< what is missing or cannot be read, a line each
+    std::vector<PaperTable> tables = paper_tables();  ///< with the sweeps' own
 };
 
 /// Reads OUT/results.json of every folder and the scores that it names. Throws Error for a folder without results, and for results
-/// that are damaged or of another format; scores that are missing or damaged become notices.
+/// that are damaged or of another format, and for two tables of one name with other columns; scores that are missing or damaged become notices.
 Measured read_measured(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace actformer::reports

@@ -124,7 +124,8 @@ void mark_best(FilledTable& table) {
             mark_best(Column{table, c, m});
 }
 
-std::vector<FilledTable> fill_tables(Measured& measured, const std::vector<PaperTable>& papers) {
+std::vector<FilledTable> fill_tables(Measured& measured) {
+    const auto& papers = measured.tables;
     std::vector<FilledTable> tables;
     for (const auto& paper : papers) tables.push_back(empty_table(paper));
     for (const auto& row : measured.rows)

@@ -41,10 +41,9 @@ CellGroup measured_group(const PaperColumns& columns, const MeasuredRow& row);
 /// Marks the best of every column, measured and printed.
 void mark_best(FilledTable& table);
 
-/// Of all tables, whether anything fills them or not. Points into `papers` and into `measured`, whose notices get a line for every cell that is not
-/// one, or that two rows fill: the one read last counts.
-std::vector<FilledTable> fill_tables(Measured& measured,
-                                     const std::vector<PaperTable>& papers = paper_tables());
+/// Of all tables, whether anything fills them or not. Points into `measured`, whose notices get a line for every cell that is not one, or
+/// that two rows fill: the one read last counts.
+std::vector<FilledTable> fill_tables(Measured& measured);
 
 /// Two digits after the point, as papers have them; more of a number below 0.1, three in all from 100,000 on.
 std::string figure_text(double value);

@@ -8,8 +8,7 @@
 #include "base/files/regular_file.hpp"
 #include "base/text/suggestion.hpp"
 #include "ingest/formats/formats.hpp"
-#include "reports/tables/paper_tables.hpp"
-#include "reports/tables/yaml_place.hpp"
+#include "reports/tables/own_tables.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -219,7 +218,8 @@ void each(const Place& place, const Node& root, const std::string& name, const E
     }
 }
 
-void check_references(const Place& place, const Node& root, const Sweep& sweep) {
+void check_references(const Place& place, const Node& root, const Sweep& sweep,
+                      const std::vector<PaperTable>& tables) {
     const auto known = [&](const auto& map, const std::string& name, const Node& where, const char* what) {
         if (name.empty() || map.contains(name)) return;
         std::vector<std::string> names;
@@ -236,7 +236,7 @@ void check_references(const Place& place, const Node& root, const Sweep& sweep) 
         known(sweep.recognisers, r.single_recogniser, where, "recogniser");
         for (const auto& cell : r.fills) {
             try {
-                find_cell(cell);
+                find_cell(cell, tables);
             } catch (const Error& e) {
                 place.fail(where, fmt::format("row '{}': {}", r.name, e.what()));
             }
@@ -271,10 +271,10 @@ Sweep read_sweep(const std::filesystem::path& file) {
         throw Error("{}: holds no sweep: name, datasets, recognisers, base, rows", file.string());
     for (const auto& item : root) {
         const auto key = item.first.Scalar();
-        if (key != "name" && key != "datasets" && key != "recognisers" && key != "base" && key != "rows")
-            place.fail(item.first,
-                       fmt::format(
-                           "a sweep has no key '{}'; it takes name, datasets, recognisers, base, rows", key));
+        const std::vector<std::string> known{"name", "datasets", "recognisers", "base", "tables", "rows"};
+        if (std::ranges::find(known, key) == known.end())
+            place.fail(item.first, fmt::format("a sweep has no key '{}'{}; it takes {}", key,
+                                               suggestion(key, known), fmt::join(known, ", ")));
     }
     Sweep out;
     out.name = root["name"] ? place.as<std::string>(root["name"], "name", "a text") : file.stem().string();
@@ -290,7 +290,9 @@ Sweep read_sweep(const std::filesystem::path& file) {
         out.rows.push_back(row(place, node, name, std::move(entry)));
     });
     if (out.rows.empty()) throw Error("{}: has no rows", file.string());
-    check_references(place, root, out);
+    const auto own = root["tables"];
+    if (own) out.tables = YAML::Dump(own);
+    check_references(place, root, out, own ? with_own_tables(paper_tables(), own, place) : paper_tables());
     return out;
 }
 

@@ -42,6 +42,8 @@ struct SweepRow {
 
 struct Sweep {
     std::string name;
+    std::string
+        tables;  ///< of its own, and rows of its own in the papers' (see with_own_tables()); as YAML, empty without any
     std::map<std::string, SweepDataset> datasets;
     std::map<std::string, SweepRecogniser> recognisers;
     std::vector<SweepRow> rows;
@@ -55,7 +57,10 @@ struct Sweep {
 ///   recognisers:
 ///     ntu-1p: {data: one, config: model/configs/recogniser-small.yaml, set: {epochs: 4}}
 ///   base: {data: one, recogniser: ntu-1p, config: model/configs/actformer-small.yaml, repeats: 3}
+///   tables:                                                      # optional
+///     table1: {rows: {Mine: {}}}                                  # or a whole table: see reports/tables/own_tables.hpp
 ///   rows:
+///     mine: {motions: mine.h5, fills: [table1/Mine/NTU-1P]}       # made by another tool
 ///     full: {fills: [table1/ActFormer/NTU-1P, table3/full/NTU-1P]}
 ///     gaussian: {like: full, set: {prior: gaussian}, fills: [table3/Gaussian prior/NTU-1P]}
 ///

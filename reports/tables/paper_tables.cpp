@@ -1,197 +1,21 @@
 #include "reports/tables/paper_tables.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 
 #include "reports/tables/table_file.hpp"
-#include "reports/tables/yaml_place.hpp"
+#include "reports/tables/table_reader.hpp"
 
 namespace actformer::reports {
 namespace {
 
-using Node = YAML::Node;
-
-/// Turns the text of one file into a table.
-class TableReader {
-  public:
-    TableReader(std::string_view yaml, const std::string& file) : place_{file} {
-        table_.id = std::filesystem::path(file).stem().string();
-        try {
-            root_ = YAML::Load(std::string(yaml));
-        } catch (const YAML::Exception& e) {
-            throw Error("{}: line {}: {}", file, e.mark.line + 1, e.msg);
-        }
+YAML::Node parsed(std::string_view yaml, const std::string& file) {
+    try {
+        return YAML::Load(std::string(yaml));
+    } catch (const YAML::Exception& e) {
+        throw Error("{}: line {}: {}", file, e.mark.line + 1, e.msg);
     }
-
-    PaperTable read() {
-        place_.expect_map(root_, "a table");
-        check_keys(root_, {"title", "caption", "source", "order", "metrics", "columns", "real", "rows"});
-        table_.title = text("title");
-        table_.caption = text("caption");
-        table_.source = text("source");
-        table_.order = place_.as<int>(needed("order"), "order", "a whole number");
-        read_columns();
-        read_rows();
-        if (const auto real = root_["real"]) table_.real = row_called(real);
-        return std::move(table_);
-    }
-
-  private:
-    void check_keys(const Node& map, const std::vector<std::string>& known) const {
-        std::vector<std::string> seen;
-        for (const auto& item : map) {
-            const auto key = item.first.Scalar();
-            if (std::ranges::find(known, key) == known.end())
-                place_.fail(item.first,
-                            fmt::format("there is no key '{}'; there are {}", key, fmt::join(known, ", ")));
-            check_new(item.first, key, seen);
-        }
-    }
-    void check_new(const Node& where, const std::string& name, std::vector<std::string>& seen) const {
-        if (std::ranges::find(seen, name) != seen.end())
-            place_.fail(where, fmt::format("'{}' comes twice", name));
-        seen.push_back(name);
-    }
-    /// As a part of a cell's name.
-    void check_name(const Node& where, const std::string& name, std::vector<std::string>& seen) const {
-        if (name.empty() || name.find('/') != std::string::npos)
-            place_.fail(where, fmt::format("'{}': a name must not be empty nor hold a /", name));
-        check_new(where, name, seen);
-    }
-
-    Node needed(const char* key) const {
-        const auto node = root_[key];
-        if (!node) throw Error("{}: has no '{}'", place_.file, key);
-        return node;
-    }
-    std::string text(const char* key) const { return place_.as<std::string>(needed(key), key, "a text"); }
-
-    Metric metric(const Node& where) const {
-        Metric out;
-        try {
-            out = scored_metric(place_.as<std::string>(where, "metrics", "names of metrics"));
-        } catch (const Error& e) {
-            place_.fail(where, e.what());
-        }
-        const auto metrics = root_["metrics"];
-        if (!metrics || !metrics[out.name]) return out;
-        const auto own = metrics[out.name];
-        if (own["heading"]) out.heading = place_.as<std::string>(own["heading"], "heading", "a text");
-        if (own["scale"]) out.scale = place_.as<double>(own["scale"], "scale", "a number");
-        if (own["better"]) out.better = better(own["better"]);
-        return out;
-    }
-    eval::Direction better(const Node& node) const {
-        const auto said = place_.as<std::string>(node, "better", "a text");
-        for (const auto one :
-             {eval::Direction::lower, eval::Direction::higher, eval::Direction::nearest_real})
-            if (said == name_of(one)) return one;
-        place_.fail(node,
-                    fmt::format("'better' must be lower, higher or nearest to real, and not '{}'", said));
-    }
-
-    void read_columns() {
-        const auto columns = needed("columns");
-        place_.expect_list(columns, "columns");
-        if (root_["metrics"]) expect_metrics(root_["metrics"]);
-        std::vector<std::string> seen, printed;
-        for (const auto& node : columns) {
-            place_.expect_map(node, "a column");
-            check_keys(node, {"dataset", "metrics"});
-            if (!node["dataset"] || !node["metrics"])
-                place_.fail(node, "a column must say dataset and metrics");
-            PaperColumns one;
-            one.dataset = place_.as<std::string>(node["dataset"], "dataset", "a text");
-            check_name(node, one.dataset, seen);
-            place_.expect_list(node["metrics"], "metrics");
-            for (const auto& name : node["metrics"]) {
-                one.metrics.push_back(metric(name));
-                printed.push_back(one.metrics.back().name);
-            }
-            if (one.metrics.empty()) place_.fail(node, "a column must have a metric");
-            table_.columns.push_back(std::move(one));
-        }
-        if (table_.columns.empty()) place_.fail(columns, "a table must have columns");
-        if (root_["metrics"]) check_keys(root_["metrics"], printed);
-    }
-    void expect_metrics(const Node& metrics) const {
-        place_.expect_map(metrics, "metrics");
-        for (const auto& item : metrics) {
-            place_.expect_map(item.second, "a metric");
-            check_keys(item.second, {"heading", "scale", "better"});
-        }
-    }
-
-    void read_rows() {
-        const auto rows = needed("rows");
-        place_.expect_map(rows, "rows");
-        std::vector<std::string> seen;
-        for (const auto& item : rows) {
-            PaperRow row;
-            row.name = item.first.Scalar();
-            check_name(item.first, row.name, seen);
-            place_.expect_map(item.second, fmt::format("row '{}'", row.name));
-            check_keys(item.second, datasets());
-            for (const auto& column : table_.columns)
-                row.figures.push_back(figures(row, column, item.second[column.dataset]));
-            table_.rows.push_back(std::move(row));
-        }
-        if (table_.rows.empty()) place_.fail(rows, "a table must have rows");
-    }
-    std::vector<std::string> datasets() const {
-        std::vector<std::string> out;
-        for (const auto& column : table_.columns) out.push_back(column.dataset);
-        return out;
-    }
-    std::vector<PaperFigure> figures(const PaperRow& row, const PaperColumns& column,
-                                     const Node& node) const {
-        const auto count = column.metrics.size();
-        if (!node) return std::vector<PaperFigure>(count);
-        if (node.IsScalar() && node.Scalar() == "not at hand") return {count, {{}, {}, false}};
-        place_.expect_list(node, fmt::format("'{}' of row '{}'", column.dataset, row.name));
-        if (node.size() != count)
-            place_.fail(node, fmt::format("row '{}', {}: {} figures for {} metrics", row.name, column.dataset,
-                                          node.size(), count));
-        std::vector<PaperFigure> out;
-        for (const auto& one : node) out.push_back(figure(one));
-        return out;
-    }
-
-    /// "12.53", "12.53 ± 0.2", "-" or "not at hand"
-    PaperFigure figure(const Node& node) const {
-        const auto said = place_.as<std::string>(node, "a figure", "a number");
-        if (said == "-") return {};
-        if (said == "not at hand") return {{}, {}, false};
-        const std::string sign = " ± ";
-        const auto at = said.find(sign);
-        PaperFigure out;
-        out.value = number(node, said.substr(0, at));
-        if (at != std::string::npos) out.half_width = number(node, said.substr(at + sign.size()));
-        return out;
-    }
-    double number(const Node& where, const std::string& said) const {
-        double value = 0;
-        const auto* end = said.data() + said.size();
-        if (const auto read = std::from_chars(said.data(), end, value);
-            read.ec == std::errc() && read.ptr == end && value - value == 0)
-            return value;
-        place_.fail(where, fmt::format("'{}' is no figure: a number, a number ± a number, - (not printed) or "
-                                       "not at hand",
-                                       where.Scalar()));
-    }
-
-    std::size_t row_called(const Node& node) const {
-        const auto name = place_.as<std::string>(node, "real", "the name of a row");
-        const auto found = std::ranges::find(table_.rows, name, &PaperRow::name);
-        if (found == table_.rows.end()) place_.fail(node, fmt::format("real: there is no row '{}'", name));
-        return static_cast<std::size_t>(found - table_.rows.begin());
-    }
-
-    YamlPlace place_;
-    Node root_;
-    PaperTable table_;
-};
+}
 
 template <typename Items, typename Name>
 std::size_t index_of(const Items& items, const std::string& wanted, Name name, const std::string& cell,
@@ -215,7 +39,8 @@ std::vector<PaperTable> all_tables() {
 }  // namespace
 
 PaperTable read_table(std::string_view yaml, const std::string& file) {
-    return TableReader(yaml, file).read();
+    const YamlPlace place{file};
+    return TableReader(parsed(yaml, file), place, std::filesystem::path(file).stem().string()).read();
 }
 
 const std::vector<PaperTable>& paper_tables() {

@@ -36,6 +36,7 @@ struct PaperFigure {
     std::optional<double> value;       ///< none: not printed, or not at hand
     std::optional<double> half_width;  ///< of the interval that is printed with it
     bool at_hand = true;
+    bool operator==(const PaperFigure&) const = default;
 };
 
 /// Columns of one dataset, as in "NTU-1P": one a metric.

@@ -152,7 +152,8 @@ TEST_F(Report, WhatShouldBeNearRealIsMarkedByItsDistanceFromReal) {
     add("near", "table9/near/A", {run(9, 8)});
     add("far", "table9/far/A", {run(6.5, 7)});
     auto measured = read();
-    const auto tables = fill_tables(measured, papers);
+    measured.tables = papers;
+    const auto tables = fill_tables(measured);
     const auto figures = [&](std::size_t row, std::size_t metric) {
         return tables[0].rows[row][0].figures[metric];
     };

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/error.hpp"
+#include "reports/tables/own_tables.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -104,6 +105,56 @@ TEST(PaperTables, TellFileAndLineOfWhatIsWrong) {
     expect_refused(head + columns + "rows: {}\n", {"line 7", "rows"});
     expect_refused("title: [\n", {"x/table9.yaml: line"});
     expect_refused("just text", {"line 1", "must be a map"});
+}
+
+std::vector<PaperTable> with(const std::string& yaml) {
+    return with_own_tables(paper_tables(), YAML::Load(yaml), {"sweep.yaml"});
+}
+
+TEST(OwnTables, StandBeforeThePapersAndGiveTheirsMoreRows) {
+    const auto tables = with(
+        "mine:\n"
+        "  caption: Real motion\n"
+        "  columns: [{dataset: CMU, metrics: [accuracy, fid_mean]}]\n"
+        "  rows: {ActFormer: {}, other: {CMU: [50.5, 12]}}\n"
+        "table1: {rows: {Mine: {}, ActFormer: {}}}\n");
+    ASSERT_EQ(tables.size(), paper_tables().size() + 1);
+    EXPECT_EQ(tables[0].id, "mine");
+    EXPECT_EQ(tables[0].title, "mine");
+    EXPECT_EQ(words_of(find_cell("mine/other/CMU", tables)), "mine · other · CMU");
+    EXPECT_EQ(tables[0].rows[1].figures[0][0].value, 50.5);
+    EXPECT_EQ(tables[1].rows.size(), paper_tables()[0].rows.size() + 1) << "ActFormer is there already";
+    const auto cell = find_cell("table1/Mine/NTU-1P", tables);
+    EXPECT_FALSE(cell.table->rows[cell.row].figures[cell.columns][0].value);
+    // Two sweeps of one table come to one, with the rows of both.
+    const auto again = with_own_tables(
+        tables,
+        YAML::Load("mine: {columns: [{dataset: CMU, metrics: [accuracy, fid_mean]}], rows: {third: {}}}"),
+        {"other.yaml"});
+    EXPECT_EQ(again.size(), tables.size());
+    EXPECT_EQ(again[0].rows.size(), 3U);
+}
+
+TEST(OwnTables, RefuseWhatWouldHideSomething) {
+    const std::string cmu = "columns: [{dataset: CMU, metrics: [accuracy]}]";
+    for (const auto& [yaml, words] : std::vector<std::pair<std::string, std::string>>{
+             {"\nmine: {" + cmu + "}", "line 2: has no 'rows'"},
+             {"mine: {rows: {a: {}}}", "has no 'columns'"},
+             {"mine: {" + cmu + ", rows: {a/b: {}}}", "nor hold a /"},
+             {"a b: {" + cmu + ", rows: {a: {}}}", "letters, digits, - and _"},
+             {"table1: {" + cmu + ", rows: {a: {}}}", "there is a table 'table1' with other columns"},
+             {"table3: {rows: {full: {NTU-1P: [1, 2, 3]}}}", "a row 'full' with other figures"},
+             {"table1: {rows: {a: {NTU-9P: []}}}", "no key 'NTU-9P'"},
+             {"[mine]", "must be a map"}}) {
+        std::string why = "nothing is wrong";
+        try {
+            with(yaml);
+        } catch (const Error& e) {
+            why = e.what();
+        }
+        EXPECT_EQ(why.find("sweep.yaml: "), 0U) << why;
+        EXPECT_NE(why.find(words), std::string::npos) << yaml << ": " << why;
+    }
 }
 
 }  // namespace
