@@ -102,12 +102,13 @@ std::vector<std::string> again(const SweepOptions& options, const reports::Job& 
 
 void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const SweepOptions& options,
               const SweepJobs& jobs) {
-    std::size_t done = 0;
     reports::SweepEvents events;
     events.again = say_again;
-    events.begins = [&](const reports::Job& job) { say(stderr, "begins: {} ({})\n", job.title, job.id); };
+    events.begins = [](const reports::Job& job, const reports::SweepProgress& now) {
+        const auto left = now.seconds_left ? ", about " + duration(*now.seconds_left) + " left" : "";
+        say(stderr, "begins: [{}/{}] {} ({}){}\n", now.begun, now.jobs, job.title, job.id, left);
+    };
     events.ends = [&](const reports::Job& job, const reports::JobStatus& status) {
-        ++done;
         if (status.state == JobState::done)
             say(stderr, "done:   {}{}\n", job.title, status.seconds ? ", " + duration(*status.seconds) : "");
         else

@@ -107,7 +107,7 @@ class Schedule {
             if (!job) return;
             taken_[*job] = true;
             ++running_;
-            if (events_.begins) events_.begins(plan_.jobs[*job]);
+            if (events_.begins) events_.begins(plan_.jobs[*job], progress());
             lock.unlock();
             auto status = done_by_us(*job);
             lock.lock();
@@ -138,6 +138,18 @@ class Schedule {
     }
     /// Nothing can become ready any more.
     bool none_left() const { return running_ == 0 && !next(); }
+
+    SweepProgress progress() const {
+        SweepProgress now{0, plan_.jobs.size(), 0.0};
+        for (std::size_t i = 0; i < plan_.jobs.size(); ++i) {
+            now.begun += taken_[i];
+            if (status_[i].state == JobState::done || status_[i].state == JobState::failed) continue;
+            const auto seconds = estimate(plan_, status_, i);
+            if (!seconds) now.seconds_left.reset();
+            if (now.seconds_left) *now.seconds_left += *seconds / options_.jobs;
+        }
+        return now;
+    }
 
     JobStatus done_by_us(std::size_t i) {
         try {

@@ -14,8 +14,15 @@ struct SweepOptions {
     unsigned jobs = 1;  ///< at once
 };
 
+/// How far a sweep is when a job begins.
+struct SweepProgress {
+    std::size_t begun = 0, jobs = 0;  ///< done before, or begun, this one included; of all
+    std::optional<double>
+        seconds_left;  ///< for what is not done, by what was; empty where a job's length is not known
+};
+
 struct SweepEvents {
-    std::function<void(const Job& job)> begins;
+    std::function<void(const Job& job, const SweepProgress& progress)> begins;
     std::function<void(const Job& job, const JobStatus& status)> ends;
     std::function<void(const Job& job, const std::string& why)> again{};  ///< what it made is not as it was
 };

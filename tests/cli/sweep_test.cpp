@@ -31,6 +31,11 @@ TEST_F(Sweep, DoesSharedWorkOnce) {
     sweep_file(two_rows);
     const auto result = sweep();
     ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("begins: [1/8] dataset one ("), std::string::npos) << result.output;
+    const auto last = result.output.find("begins: [8/8] ");
+    ASSERT_NE(last, std::string::npos) << result.output;
+    EXPECT_LT(result.output.find(" left\n", last), result.output.find("done:", last))
+        << "other jobs of its kind tell how long it takes: " << result.output;
     EXPECT_EQ(calls_of("synth"), 1);
     EXPECT_EQ(calls_of("ingest ntu"), 1);
     EXPECT_EQ(calls_of("train recogniser"), 1);
@@ -185,6 +190,23 @@ TEST_F(Sweep, PrintsItsPlanAndChangesNothing) {
     const auto status = sweep("--status");
     EXPECT_NE(status.output.find("0 of 8 jobs to do"), std::string::npos) << status.output;
     EXPECT_NE(status.output.find("2 of 2 rows done"), std::string::npos) << status.output;
+}
+
+TEST_F(Sweep, MayHaveTablesOfItsOwn) {
+    write_file(dir / "mine.h5", "motions");
+    sweep_file(
+        "  mine: {motions: mine.h5, fills: [cmu/Mine/CMU, table1/Mine/NTU-1P]}\n",
+        "tables:\n"
+        "  cmu: {title: Real motion, columns: [{dataset: CMU, metrics: [accuracy]}], rows: {Mine: {}}}\n"
+        "  table1: {rows: {Mine: {}}}\n");
+    ASSERT_EQ(sweep().exit, 0);
+    const auto report = run_command(program() + " report " + at("out") + " --json");
+    ASSERT_EQ(report.exit, 0) << report.output;
+    const auto tables = Json::parse(report.output.substr(report.output.find('{')))["tables"];
+    EXPECT_EQ(tables[0]["title"], "Real motion") << "before the papers'";
+    EXPECT_EQ(tables[0]["rows"][0]["name"], "Mine");
+    EXPECT_EQ(tables[1]["id"], "table1");
+    EXPECT_EQ(tables[1]["rows"].back()["name"], "Mine");
 }
 
 TEST_F(Sweep, ScoresMotionsOfOtherTools) {
