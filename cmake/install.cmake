@@ -1,13 +1,13 @@
 # What `cmake --install` puts where. The tree may be moved as a whole: the program finds what belongs to it by where it lies.
 #
 #   bin/actformer                       libexec/actformer/actformer-render, actformer-train and its .so
-#   share/actformer/model/configs       share/actformer/reports/sweeps
+#   share/actformer/model/configs       share/actformer/reports/sweeps, share/actformer/weights/cmu
 #   share/man/man1                      share/doc/actformer
 #   share/{bash-completion/completions,zsh/site-functions,fish/vendor_completions.d}
 include(GNUInstallDirs)
 
 # What comes with the program lies beside it where it was built, too.
-foreach(folder model/configs reports/sweeps)
+foreach(folder model/configs reports/sweeps weights/cmu)
   cmake_path(GET folder PARENT_PATH room)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share/actformer/${room})
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${CMAKE_BINARY_DIR}/share/actformer/${folder} SYMBOLIC)

@@ -101,10 +101,10 @@ def main():
     options = parser.parse_args()
     sources = options.sources.resolve()
     environment = dict(os.environ, PATH=f"{options.program.resolve()}:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", PYTHONPATH=str(sources / "python"))
-    pages = options.pages or ["README.md", "examples/cmu/README.md", "python/README.md",
+    pages = options.pages or ["README.md", "examples/cmu/README.md", "weights/cmu/README.md", "python/README.md",
                               *sorted(f"docs/{page.name}" for page in (sources / "docs").glob("*.md"))]
     with tempfile.TemporaryDirectory(prefix="actformer-docs-") as folder:
-        for name in ("examples", "model", "reports", "tests"):  # it looks like the repository's root, as far as pages name it
+        for name in ("examples", "model", "reports", "tests", "weights"):  # it looks like the repository's root, as far as pages name it
             (pathlib.Path(folder) / name).symlink_to(sources / name)
         if sum(check_page(page, sources, folder, environment, options.printed) for page in pages) == 0:
             raise SystemExit("no block ran")
