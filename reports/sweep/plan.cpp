@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/files/nearest_file.hpp"
 #include "base/process/shipped.hpp"
+#include "eval/run_weights.hpp"
 #include "ingest/dataset/dataset.hpp"
 
 namespace actformer::reports {
@@ -60,16 +61,17 @@ class Planner {
     }
 
   private:
-    /// A dataset or recogniser: the job that makes it, none where it is there, and its path.
+    /// A dataset or network: the job that makes it, none where it is there, and its path.
     struct Made {
         std::optional<std::size_t> job;
         std::string path;
-        double clips = 0;  ///< of a dataset; 0 where that is not known yet
+        double clips = 0;      ///< of a dataset; 0 where that is not known yet
+        std::string contents{};  ///< checksum of weights that are there
     };
 
     /// Its path where it is there; empty where it is not.
     std::string place_of(const std::string& path) const {
-        for (const auto& candidate : {fs::path(path), beside_ / path})
+        for (const auto& candidate : {fs::path(path), beside_ / path, shipped_folder() / path})
             if (fs::exists(candidate)) return fs::absolute(candidate).lexically_normal().string();
         return {};
     }
@@ -87,6 +89,17 @@ class Planner {
         if (job.problem.empty()) return {{}, at};
         job.work = MissingWork{what, at};
         return {add(std::move(job)), at};
+    }
+
+    /// Weights, or the folder of a training.
+    Made ready_weights(const std::string& path, Job job) {
+        auto made = there(path, "weights", std::move(job));
+        if (made.job) return made;
+        try {
+            made.contents = checksum_file(eval::weights_of(made.path));
+        } catch (const Error&) {  // whoever uses them will say why
+        }
+        return made;
     }
 
     /// The contents that a file has now are part of the fingerprint.
@@ -125,7 +138,9 @@ class Planner {
         return path;
     }
 
+    /// To be called right before the job is added, as the contents become part of its fingerprint.
     void need(Job& job, const Made& made) {
+        if (!made.contents.empty()) contents_ += "|" + made.contents;
         if (!made.job) return;
         if (std::find(job.needs.begin(), job.needs.end(), *made.job) == job.needs.end())
             job.needs.push_back(*made.job);
@@ -181,18 +196,20 @@ class Planner {
         Job job;
         job.kind = "recogniser";
         job.title = "recogniser " + name;
-        if (!r.weights.empty()) return there(r.weights, "weights", std::move(job));
+        if (!r.weights.empty()) return ready_weights(r.weights, std::move(job));
         const auto at = train(std::move(job), r.config, r.set, dataset(r.data));
         return {at, made_by(at, TrainingWork().out)};
     }
 
-    std::size_t generator(const SweepRow& row, std::uint64_t seed, const Made& data) {
+    Made generator(const SweepRow& row, std::uint64_t seed, const Made& data) {
         Job job;
         job.kind = "generator";
         job.title = fmt::format("{}, seed {}: generator", row.name, seed);
+        if (!row.weights.empty()) return ready_weights(row.weights, std::move(job));
         auto set = row.set;
         set["seed"] = std::to_string(seed);
-        return train(std::move(job), row.config, set, data);
+        const auto at = train(std::move(job), row.config, set, data);
+        return {at, made_by(at, TrainingWork().out)};
     }
 
     /// The libtorch device that a row trains on, where it says one.
@@ -202,13 +219,13 @@ class Planner {
     }
 
     /// A few motions to look at.
-    std::size_t generate(const SweepRow& row, std::uint64_t seed, std::size_t generator) {
+    std::size_t generate(const SweepRow& row, std::uint64_t seed, const Made& generator) {
         Job job;
         job.kind = "generate";
         job.title = fmt::format("{}, seed {}: motions to look at", row.name, seed);
-        job.needs = {generator};
+        need(job, generator);
         GenerationWork work;
-        work.generator = made_by(generator, TrainingWork().out);
+        work.generator = generator.path;
         work.device = device_of(row);
         job.work = std::move(work);
         job.amount = 1;
@@ -221,7 +238,8 @@ class Planner {
         const auto data = dataset(row.data);
         const auto together = row.recogniser.empty() ? Made{} : recogniser(row.recogniser);
         const auto single = row.single_recogniser.empty() ? Made{} : recogniser(row.single_recogniser);
-        const auto seeds = row.motions.empty() ? row.seeds : std::vector<std::uint64_t>{0};
+        const bool trains = row.motions.empty() && row.weights.empty();
+        const auto seeds = trains ? row.seeds : std::vector<std::uint64_t>{0};
         for (const auto seed : seeds) planned.runs.push_back(planned_run(row, seed, data, together, single));
         plan_.rows.push_back(std::move(planned));
     }
@@ -233,7 +251,6 @@ class Planner {
         Job job;
         job.kind = "score";
         job.title = fmt::format("{}, seed {}: scores", row.name, seed);
-        for (const auto& made : {data, recogniser, single}) need(job, made);
         ScoringWork work;
         work.recogniser = recogniser.path;
         run.recogniser = recogniser.path.empty() ? single.path : recogniser.path;
@@ -244,14 +261,16 @@ class Planner {
         work.window = row.window;
         work.repeats = row.repeats;
         work.per_class = row.per_class;
+        const auto made_with = row.motions.empty() ? generator(row, seed, data) : Made{};
         if (row.motions.empty()) {
-            run.generator = generator(row, seed, data);
-            run.generate = generate(row, seed, *run.generator);
-            run.run = work.generator = made_by(*run.generator, TrainingWork().out);
+            run.generator = made_with.job;
+            run.generate = generate(row, seed, made_with);
+            run.run = work.generator = made_with.path;
             run.motions = made_by(*run.generate, GenerationWork().out);
-            job.needs.push_back(*run.generator);
             work.generate_on = device_of(row);
-        } else {
+        }
+        for (const auto& made : {data, recogniser, single, made_with}) need(job, made);
+        if (!row.motions.empty()) {
             for (const auto& motions : row.motions) work.motions.push_back(with_contents(motions, job));
             run.motions = work.motions.back();
         }

@@ -10,8 +10,9 @@ namespace actformer::reports {
 /// One seed of a row. Paths are within the sweep's folder, but for data and weights that were there before.
 struct PlannedRun {
     std::uint64_t seed = 0;
-    std::size_t score = 0;                           ///< job
-    std::optional<std::size_t> generator, generate;  ///< jobs; none where the motions are another tool's
+    std::size_t score = 0;  ///< job
+    std::optional<std::size_t> generator,
+        generate;  ///< jobs; none where the weights were there, or the motions are another tool's
     std::string scores, features, motions, run, recogniser, dataset;
 };
 

@@ -176,6 +176,7 @@ SweepRow row(const Place& place, const Node& where, const std::string& name, Ent
     take.text("recogniser", out.recogniser);
     take.text("single_recogniser", out.single_recogniser);
     take.text("config", out.config);
+    take.text("weights", out.weights);
     take.list("motions", out.motions, "paths");
     take.settings("set", out.set);
     take.list("seeds", out.seeds, "whole numbers");
@@ -186,13 +187,15 @@ SweepRow row(const Place& place, const Node& where, const std::string& name, Ent
     take.text("device", out.device);
     take.list("fills", out.fills, "cells");
     take.end("a row",
-             "data, recogniser, single_recogniser, config, motions, set, seeds, repeats, per_class, window, "
+             "data, recogniser, single_recogniser, config, weights, motions, set, seeds, repeats, per_class, "
+             "window, "
              "split, "
              "device, fills, like");
     if (out.data.empty() || (out.recogniser.empty() && out.single_recogniser.empty()))
         place.fail(where, fmt::format("row '{}' must say data and recogniser, or single_recogniser", name));
-    if (out.config.empty() && out.motions.empty())
-        place.fail(where, fmt::format("row '{}' must say config, of a generator, or motions", name));
+    if (out.config.empty() && out.weights.empty() && out.motions.empty())
+        place.fail(where,
+                   fmt::format("row '{}' must say config, or weights of a generator, or motions", name));
     if (out.seeds.empty()) place.fail(where, fmt::format("row '{}' has no seeds", name));
     return out;
 }

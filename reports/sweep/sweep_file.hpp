@@ -28,11 +28,12 @@ struct SweepRecogniser {
     Settings set;
 };
 
-/// A generator trained with each of `seeds`, or motions of another tool, and its scores.
+/// A generator trained with each of `seeds`, or ready weights, or motions of another tool, and its scores.
 struct SweepRow {
     std::string name, data, recogniser, single_recogniser, config;
+    std::string weights;  ///< of a generator, or the folder of its training; in place of `config`
     std::vector<std::string>
-        motions;  ///< in place of a generator, whatever `config` says: each file a repeat
+        motions;  ///< in place of a generator, whatever `config` and `weights` say: each file a repeat
     Settings set;
     std::vector<std::uint64_t> seeds{0};
     std::uint64_t repeats = 20, per_class = 100, window = 60;

@@ -217,6 +217,20 @@ TEST_F(Sweep, ScoresMotionsOfOtherTools) {
     EXPECT_EQ(calls_of("train generator"), 0);
 }
 
+TEST_F(Sweep, ScoresWeightsThatAreThereAndAgainWhereTheyChanged) {
+    write_file(dir / "ready.h5", "weights");
+    sweep_file("  ready: {weights: ready.h5, seeds: [1, 2], fills: [table1/ActFormer/NTU-1P]}\n");
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(calls_of("train generator"), 0);
+    EXPECT_EQ(calls_of("generate --generator " + at("ready.h5")), 1);
+    EXPECT_EQ(calls_of("--generator " + at("ready.h5") + " --repeats 3"), 1) << "there is one of it";
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(calls_of("--generator " + at("ready.h5") + " --repeats 3"), 1);
+    write_file(dir / "ready.h5", "others");
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(calls_of("--generator " + at("ready.h5") + " --repeats 3"), 2);
+}
+
 TEST_F(Sweep, MissingDataFailOnlyTheirRows) {
     sweep_file("  full: {fills: [table3/full/NTU-1P]}\n  theirs: {motions: none.h5}\n");
     const auto result = sweep();
