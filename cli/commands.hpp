@@ -15,6 +15,7 @@ void add_features(CLI::App& app);
 void add_classify(CLI::App& app);
 void add_score(CLI::App& app);
 void add_sweep(CLI::App& app);
+void add_compare(CLI::App& app);
 void add_report(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_train(CLI::App& app);

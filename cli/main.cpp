@@ -114,7 +114,7 @@ void group_commands(CLI::App& app) {
     const std::pair<const char*, std::vector<std::string>> groups[] = {
         {"Data", {"synth", "ingest", "inspect", "export", "render"}},
         {"Networks", {"train", "model", "generate", "import", "features", "classify"}},
-        {"Results", {"score", "sweep", "report"}},
+        {"Results", {"score", "compare", "sweep", "report"}},
         {"This machine", {"devices", "bench", "completion"}}};
     for (auto* command : app.get_subcommands([](CLI::App*) { return true; }))
         for (const auto& [heading, names] : groups)
@@ -140,6 +140,7 @@ int main(int argc, char** argv) {
         add_classify(app);
         add_score(app);
         add_sweep(app);
+        add_compare(app);
         add_report(app);
         for (const auto& sub : subprograms)
             if (std::filesystem::exists(path_of(sub))) app.add_subcommand(sub.command, sub.description);

@@ -7,6 +7,7 @@
 #include "base/files/file.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
+#include "cli/report.hpp"
 #include "cli/say.hpp"
 #include "reports/page/exports.hpp"
 #include "reports/page/page.hpp"
@@ -17,14 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ReportOptions {
-    std::vector<fs::path> folders;
-    fs::path out, csv, latex;
-    std::string title = "ActFormer, measured";
-    double motion_megabytes = 12;
-    bool json = false;
-};
-
 std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
     std::size_t cells = 0;
     for (const auto& table : tables)
@@ -34,7 +27,9 @@ std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
     return cells;
 }
 
-void run(const ReportOptions& options) {
+}  // namespace
+
+void write_report(const ReportOptions& options) {
     for (const auto& path : {options.out, options.csv, options.latex})
         if (!path.empty()) check_output(path);
     auto measured = reports::read_measured(options.folders);
@@ -55,8 +50,6 @@ void run(const ReportOptions& options) {
     for (const auto& notice : measured.notices) say(stderr, "notice: {}\n", notice);
     if (options.json) fmt::print("{}\n", reports::to_json(tables, measured.notices).dump(2));
 }
-
-}  // namespace
 
 void add_report(CLI::App& app) {
     auto options = std::make_shared<ReportOptions>();
@@ -80,7 +73,7 @@ void add_report(CLI::App& app) {
     command->callback([options] {
         if (options->out.empty() && options->csv.empty() && options->latex.empty() && !options->json)
             throw Error("nothing to write: give -o report.html, --csv FILE, --latex FILE or --json");
-        run(*options);
+        write_report(*options);
     });
 }
 

@@ -83,10 +83,6 @@ std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, c
     return failed;
 }
 
-void say_again(const reports::Job& job, const std::string& why) {
-    say(stderr, "again:  {} ({}): {}\n", job.title, job.id, why);
-}
-
 /// This command again for one job, for Slurm, which may run it on another machine with the same file system.
 std::vector<std::string> again(const SweepOptions& options, const reports::Job& job) {
     return {(program_folder() / "actformer").string(),
@@ -102,20 +98,8 @@ std::vector<std::string> again(const SweepOptions& options, const reports::Job& 
 
 void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const SweepOptions& options,
               const SweepJobs& jobs) {
-    reports::SweepEvents events;
-    events.again = say_again;
-    events.begins = [](const reports::Job& job, const reports::SweepProgress& now) {
-        const auto left = now.seconds_left ? ", about " + duration(*now.seconds_left) + " left" : "";
-        say(stderr, "begins: [{}/{}] {} ({}){}\n", now.begun, now.jobs, job.title, job.id, left);
-    };
-    events.ends = [&](const reports::Job& job, const reports::JobStatus& status) {
-        if (status.state == JobState::done)
-            say(stderr, "done:   {}{}\n", job.title, status.seconds ? ", " + duration(*status.seconds) : "");
-        else
-            say(stderr, "failed: {}: {}; see {}\n", job.title, status.why,
-                (reports::folder_of(options.out, job) / "log.txt").string());
-    };
-    const auto status = reports::run_plan(sweep, plan, {options.out, jobs, options.jobs}, events);
+    const auto status =
+        reports::run_plan(sweep, plan, {options.out, jobs, options.jobs}, told_events(options.out));
     if (options.json)
         fmt::print("{}\n", reports::results(sweep, plan, options.out).dump(2));
     else
@@ -143,7 +127,7 @@ void run(SweepOptions options) {
     if (options.slurm && !options.dry_run) {
         const auto count = reports::submit_plan(
             sweep, plan, {options.out, jobs}, [&](const reports::Job& job) { return again(options, job); },
-            options.sbatch, say_again);
+            options.sbatch, told_events(options.out).again);
         say("{} submitted; follow them with actformer sweep {} -o {} --status\n", counted(count, "job"),
             options.file.string(), options.out.string());
         return;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/sweep/job.hpp"
+#include "reports/sweep/run.hpp"
 
 namespace actformer::cli {
 
@@ -30,5 +30,8 @@ class SweepJobs : public reports::JobRunner {
     std::string program_;
     std::filesystem::path out_;
 };
+
+/// Tells on standard error which job begins and how each ends. `out` is the sweep's folder.
+reports::SweepEvents told_events(const std::filesystem::path& out);
 
 }  // namespace actformer::cli

@@ -1,0 +1,240 @@
+// actformer compare: two generators, or two files of motions, beside the same real motions.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "base/error.hpp"
+#include "base/hdf5/reader.hpp"
+#include "base/process/process.hpp"
+#include "base/text/loose_json.hpp"
+#include "cli/commands.hpp"
+#include "cli/format.hpp"
+#include "cli/report.hpp"
+#include "cli/say.hpp"
+#include "cli/sweep_jobs.hpp"
+#include "eval/metrics/interval.hpp"
+#include "eval/metrics/metric.hpp"
+#include "reports/page/measured.hpp"
+#include "reports/page/tables.hpp"
+
+namespace actformer::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct CompareOptions {
+    fs::path a, b, recogniser, real, out;
+    std::string split = "all", device;
+    std::uint64_t repeats = 20, per_class = 100, window = 60;
+    bool json = false;
+};
+
+/// What both sides have of a metric, as tables print it.
+struct Compared {
+    reports::Metric metric;
+    eval::Interval a, b;
+    eval::Interval difference;     ///< of B less A, seed by seed
+    std::optional<double> real;    ///< of real motions
+    std::optional<bool> b_better;  ///< where the interval says so
+};
+
+/// Weights name their method; motions do not.
+bool holds_motions(const fs::path& path) {
+    return fs::is_regular_file(path) && !hdf5::Reader(path).has_attribute("model");
+}
+
+/// Without the name that the command which failed begins its line with.
+std::string why_of(const reports::JobStatus& status) {
+    const std::string name = "actformer: ";
+    return status.why.starts_with(name) ? status.why.substr(name.size()) : status.why;
+}
+
+reports::SweepRow side(const char* letter, const fs::path& path, const CompareOptions& options) {
+    reports::SweepRow row;
+    row.name = fmt::format("{}, {}", letter, fs::absolute(path / "").parent_path().filename().string());
+    row.data = "real";
+    row.recogniser = "recogniser";
+    row.split = options.split;
+    row.device = options.device;
+    row.repeats = options.repeats;
+    row.per_class = options.per_class;
+    row.window = options.window;
+    if (holds_motions(path))
+        row.motions = {path.string()};
+    else
+        row.weights = path.string();
+    return row;
+}
+
+reports::Sweep comparison(const CompareOptions& options) {
+    reports::Sweep sweep;
+    sweep.name = "comparison";
+    sweep.datasets["real"].path = options.real.string();
+    sweep.recognisers["recogniser"].weights = options.recogniser.string();
+    sweep.rows = {side("A", options.a, options), side("B", options.b, options)};
+    return sweep;
+}
+
+std::vector<double> repeats_of(const Json& scores, const reports::Metric& metric) {
+    std::vector<double> values;
+    for (const auto& value : loose::list(loose::member(scores, metric.name.c_str()), "repeats"))
+        if (value.is_number()) values.push_back(metric.scale * value.get<double>());
+    return values;
+}
+
+/// The interval of the differences between corresponding values.
+eval::Interval interval_between(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> differences(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) differences[i] = b[i] - a[i];
+    return eval::interval(differences);
+}
+
+/// Every value's distance from the best one that there is.
+std::vector<double> distances(const std::vector<double>& values, const Compared& of) {
+    std::vector<double> out;
+    for (const double value : values)
+        out.push_back(reports::distance_from_best(of.metric.better, value, of.real.value_or(0)));
+    return out;
+}
+
+/// None where one side was not scored with the metric, or with another number of repeats.
+std::optional<Compared> compared(const Json& a, const Json& b, const std::string& name) {
+    Compared out;
+    out.metric = reports::scored_metric(name);
+    const auto of_a = repeats_of(a, out.metric), of_b = repeats_of(b, out.metric);
+    if (of_a.empty() || of_a.size() != of_b.size()) return {};
+    out.a = eval::interval(of_a);
+    out.b = eval::interval(of_b);
+    out.difference = interval_between(of_a, of_b);
+    if (const auto& real = loose::member(loose::member(a, "real"), name.c_str()); real.is_number())
+        out.real = out.metric.scale * real.get<double>();
+    if (out.metric.better == eval::Direction::nearest_real && !out.real) return out;
+    const auto further = interval_between(distances(of_a, out), distances(of_b, out));
+    if (further.half_width && std::abs(further.mean) > *further.half_width) out.b_better = further.mean < 0;
+    return out;
+}
+
+std::vector<Compared> all_compared(const Json& a, const Json& b) {
+    std::vector<Compared> out;
+    for (const auto& metric : eval::metrics())
+        if (auto one = compared(a, b, std::string(metric.name))) out.push_back(std::move(*one));
+    return out;
+}
+
+std::string text_of(const eval::Interval& interval, bool with_sign = false) {
+    const auto mean = with_sign && interval.mean > 0 ? "+" + reports::figure_text(interval.mean)
+                                                     : reports::figure_text(interval.mean);
+    return interval.half_width ? mean + " ± " + reports::figure_text(*interval.half_width) : mean;
+}
+
+const char* verdict(const Compared& one) {
+    if (!one.difference.half_width) return "one repeat: chance is not told";
+    if (!one.b_better) return "no difference shown";
+    return *one.b_better ? "B is better" : "A is better";
+}
+
+void print(const std::vector<Compared>& all, const reports::Sweep& sweep) {
+    for (const auto& row : sweep.rows) say("{}\n", row.name);
+    say("\n{:<18} {:>18} {:>18} {:>18} {:>9}\n", "", "A", "B", "B - A", "real");
+    for (const auto& one : all)
+        say("{:<18} {:>18} {:>18} {:>18} {:>9}   {}\n", one.metric.heading, text_of(one.a), text_of(one.b),
+            text_of(one.difference, true), one.real ? reports::figure_text(*one.real) : "", verdict(one));
+    say("\nintervals of 95 %, of differences seed by seed\n");
+}
+
+Json to_json(const eval::Interval& interval) {
+    Json out{{"mean", interval.mean}};
+    if (interval.half_width) out["ci95"] = *interval.half_width;
+    return out;
+}
+
+Json to_json(const std::vector<Compared>& all, const fs::path& page) {
+    Json metrics = Json::object();
+    for (const auto& one : all) {
+        auto& entry = metrics[one.metric.name];
+        entry = {{"a", to_json(one.a)}, {"b", to_json(one.b)}, {"difference", to_json(one.difference)}};
+        if (one.real) entry["real"] = *one.real;
+        entry["better"] = one.b_better ? Json(*one.b_better ? "b" : "a") : Json();
+    }
+    return {{"metrics", metrics}, {"report", page.string()}};
+}
+
+/// The table that stands first in the report: both sides, with the metrics that they have.
+void add_table(reports::Sweep& sweep, const std::vector<Compared>& all, const std::string& dataset) {
+    Json names = Json::array(), rows = Json::object();
+    for (const auto& one : all) names.push_back(one.metric.name);
+    for (auto& row : sweep.rows) {
+        rows[row.name] = Json::object();
+        row.fills = {"comparison/" + row.name + "/" + dataset};
+    }
+    const Json table{{"title", "Comparison"},
+                     {"columns", Json::array({{{"dataset", dataset}, {"metrics", names}}})},
+                     {"rows", rows}};
+    sweep.tables = Json{{"comparison", table}}.dump();  // JSON is YAML
+}
+
+void run(const CompareOptions& options) {
+    const auto out = fs::absolute(options.out).lexically_normal();
+    auto sweep = comparison(options);
+    const SweepJobs jobs((program_folder() / "actformer").string(), out);
+    const auto plan = reports::make_plan(sweep, {}, jobs);
+    for (const auto& job : plan.jobs)
+        if (!job.problem.empty()) throw Error("{}", job.problem);
+    for (const auto& status : reports::run_plan(sweep, plan, {out, jobs}, told_events(out)))
+        if (status.state != reports::JobState::done) throw Error("{}", why_of(status));
+    const auto measured = reports::read_measured({out});
+    const auto all = all_compared(measured.rows[0].runs[0].scored, measured.rows[1].runs[0].scored);
+    if (all.empty())
+        throw Error(
+            "{} and {}: no metric that both have as many repeats of; compare two generators, or two "
+            "files of motions",
+            options.a.string(), options.b.string());
+    add_table(sweep, all, fs::absolute(options.real / "").parent_path().filename().string());
+    reports::write_results(sweep, plan, out);
+    write_report({.folders = {out}, .out = out / "report.html", .title = "A comparison"});
+    if (options.json)
+        fmt::print("{}\n", to_json(all, out / "report.html").dump(2));
+    else
+        print(all, sweep);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app) {
+    auto options = std::make_shared<CompareOptions>();
+    auto* command =
+        app.add_subcommand("compare", "Score two generators with the same seeds, and what lies between them");
+    command->add_option("a", options->a, "A training, weights of a generator, or motions")->required();
+    command->add_option("b", options->b, "Another of these")->required();
+    command->add_option("--recogniser", options->recogniser, "Training or weights of a recogniser")
+        ->required();
+    command->add_option("--real", options->real, "Dataset of real motions")->required()->type_name("DATASET");
+    command->add_option("--split", options->split, "Which of them")->capture_default_str();
+    command->add_option("--repeats", options->repeats, "Seeds")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command->add_option("--per-class", options->per_class, "Motions of a class")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+    command->add_option("--window", options->window, "Frames a motion")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
+    command->add_option("--device", options->device, "OpenCL device: a number, gpu, cpu, or part of a name");
+    command->add_option("-o,--out", options->out, "Folder of scores, features and report.html")
+        ->required()
+        ->type_name("DIR");
+    command->add_flag("--json", options->json, "Print JSON");
+    examples(
+        command,
+        "  actformer compare generator-a generator-b --recogniser recogniser --real cmu --split train -o "
+        "comparison\n"
+        "  actformer compare weights/cmu/actformer.h5 mine.h5 --recogniser weights/cmu/recogniser.h5 --real "
+        "cmu -o c\n"
+        "A difference is taken seed by seed; one whose interval of 95 % holds 0 is not shown to be there.\n");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace actformer::cli

@@ -1,0 +1,21 @@
+// What `actformer report` writes, for the commands that end in a report.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace actformer::cli {
+
+struct ReportOptions {
+    std::vector<std::filesystem::path> folders;   ///< of sweeps
+    std::filesystem::path out{}, csv{}, latex{};  ///< empty: not written
+    std::string title = "ActFormer, measured";
+    double motion_megabytes = 12;
+    bool json = false;
+};
+
+/// Says on standard error what it wrote and what is missing. Throws Error for folders without results.
+void write_report(const ReportOptions& options);
+
+}  // namespace actformer::cli

@@ -1,0 +1,106 @@
+// `actformer compare`: differences seed by seed, against plain sums over what `score` wrote.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/command.hpp"
+#include "tests/support/paths.hpp"
+#include "tests/support/temp_dir.hpp"
+#include "tests/support/toy_dataset.hpp"
+
+using namespace actformer::test;
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+/// A recogniser and two generators of the toy dataset, barely trained.
+struct Compare : testing::Test {
+    void SetUp() override {
+        if (!fs::exists(program() + "-train")) GTEST_SKIP() << "built without libtorch";
+        write_file(dir / "r.yaml",
+                   "model: recogniser\nwidth: 0.1\nframes: 20\nbatch: 16\nepochs: 1\ntrain_split: s/train\n");
+        write_file(dir / "g.yaml",
+                   "model: actformer\nframes: 20\nwidth: 16\nheads: 2\ndepth: 1\nlatent: 8\nd_width: 4\n"
+                   "batch: 16\nepochs: 1\ntrain_split: s/train\n");
+        train("recogniser -c " + at("r.yaml") + " -o " + at("r"));
+        train("generator -c " + at("g.yaml") + " -o " + at("one"));
+        train("generator -c " + at("g.yaml") + " -o " + at("other") + " seed=1");
+    }
+    void train(const std::string& words) const {
+        const auto result = run_actformer("train " + words + " --data " + toy().string());
+        ASSERT_EQ(result.exit, 0) << result.output;
+    }
+    CommandResult compare(const std::string& a, const std::string& b, const std::string& out,
+                          const std::string& more = "") const {
+        return run_actformer("compare " + at(a) + " " + at(b) + " --recogniser " + at("r") + " --real " +
+                             toy().string() + " --split s/train --window 20 --per-class 3 --repeats 3 -o " +
+                             at(out) + more);
+    }
+    std::string at(const std::string& name) const { return (dir / name).string(); }
+
+    TempDir dir;
+};
+
+Json json_in(const std::string& text) {
+    return Json::parse(text.substr(text.find("\n{") + 1));
+}
+
+}  // namespace
+
+TEST_F(Compare, TakesDifferencesSeedBySeed) {
+    const auto result = compare("one", "other", "out", " --json");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    const auto rows = Json::parse(read_file(dir / "out/results.json"))["rows"];
+    const auto repeats = [&](std::size_t row) {
+        const auto scores = rows[row]["runs"][0]["scores"].get<std::string>();
+        return Json::parse(read_file(dir / "out" / scores))["fid_whole"]["repeats"]
+            .get<std::vector<double>>();
+    };
+    const auto a = repeats(0), b = repeats(1);
+    ASSERT_EQ(a.size(), 3U);
+    double mean = 0, squares = 0;
+    for (std::size_t i = 0; i < 3; ++i) mean += (b[i] - a[i]) / 3;
+    for (std::size_t i = 0; i < 3; ++i) squares += std::pow(b[i] - a[i] - mean, 2) / 2;
+    const auto found = json_in(result.output)["metrics"]["fid_whole"];
+    // Student's quantile for two degrees of freedom is 4.30265; scores keep all digits.
+    const double half = 4.30265 * std::sqrt(squares / 3);
+    EXPECT_NEAR(found["difference"]["mean"], mean, 1e-9 * std::abs(mean));
+    EXPECT_NEAR(found["difference"]["ci95"], half, 1e-5 * half);
+    EXPECT_EQ(found["better"], std::abs(mean) <= half ? Json() : Json(mean < 0 ? "b" : "a"));
+
+    const auto report = run_actformer("report " + at("out") + " --json");
+    const auto first = Json::parse(report.output.substr(report.output.find('{')))["tables"][0];
+    EXPECT_EQ(first["title"], "Comparison");
+    EXPECT_EQ(first["rows"][1]["name"], "B, other");
+    EXPECT_NE(read_file(dir / "out/report.html").find("B, other"), std::string::npos);
+}
+
+TEST_F(Compare, AGeneratorIsNoBetterThanItself) {
+    const auto result = compare("one", "one/weights-last.h5", "out");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("no difference shown"), std::string::npos) << result.output;
+    EXPECT_EQ(result.output.find(" is better"), std::string::npos) << result.output;
+}
+
+TEST_F(Compare, TakesMotionsAndSaysThatOneRepeatTellsNothingOfChance) {
+    for (const auto* name : {"one", "other"})
+        ASSERT_EQ(
+            run_actformer("generate --generator " + at(name) + " --per-class 3 -o " + at(name) + ".h5").exit,
+            0);
+    const auto result = compare("one.h5", "other.h5", "out");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("one repeat: chance is not told"), std::string::npos) << result.output;
+    EXPECT_EQ(result.output.find(" is better"), std::string::npos) << result.output;
+
+    const auto mixed = compare("one", "other.h5", "mixed");
+    EXPECT_EQ(mixed.exit, 1);
+    EXPECT_NE(mixed.output.find("compare two generators, or two files of motions"), std::string::npos)
+        << mixed.output;
+    const auto missing = compare("onne", "other", "missing");
+    EXPECT_EQ(missing.exit, 1);
+    EXPECT_EQ(lines_in(missing.output), 1) << missing.output;
+    EXPECT_NE(missing.output.find("no such file or folder"), std::string::npos) << missing.output;
+    EXPECT_FALSE(fs::exists(dir / "missing"));
+}
