@@ -74,6 +74,7 @@ void add_train_generator(CLI::App& train) {
              "  actformer train generator -c actformer-small --data ntu/ntu-1p -o generator\n"
              "  actformer train generator -c actformer-ntu-2p --data ntu/ntu-2p -o generator "
              "recogniser=recogniser device=cuda bf16=true\n"
+             "  actformer train generator -c actformer-cmu --data cmu -o generator tensorboard=true\n"
              "  torchrun --no_python --nproc_per_node 2 actformer train generator -c "
              "actformer-small --data ntu/ntu-1p -o generator --data-parallel\n" +
                  methods_named());

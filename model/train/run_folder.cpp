@@ -1,14 +1,25 @@
 #include "model/train/run_folder.hpp"
 
+#include <chrono>
 #include <fstream>
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/json.hpp"
+#include "model/train/tensorboard.hpp"
 
 namespace actformer::model {
+namespace {
 
-RunFolder::RunFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
+/// Seconds since 1970.
+double now() {
+    return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+RunFolder::RunFolder(std::filesystem::path folder, bool tensorboard)
+    : folder_(std::move(folder)), tensorboard_(tensorboard) {
     make_folders(folder_);
     lock_ = FileLock::if_free(folder_ / "lock");
     if (!lock_)
@@ -30,21 +41,27 @@ void RunFolder::keep_to(const Config& config) const {
 
 void RunFolder::log(const nlohmann::ordered_json& line) const {
     append(folder_ / "log.jsonl", line.dump() + "\n");
+    if (const auto event = tensorboard_event(line, now()); tensorboard_ && !event.empty())
+        append(events(), event);
 }
 
 void RunFolder::rewind_log(std::uint64_t epochs) const {
     const auto path = folder_ / "log.jsonl";
     std::ifstream file(path, std::ios::binary);
-    if (!file) return;
-    std::string kept, line;
+    std::string kept, line, curves = tensorboard_head(now());
     while (std::getline(file, line) && !file.eof()) {
-        const auto json = json_or_discarded<nlohmann::json>(line);
+        const auto json = json_or_discarded<nlohmann::ordered_json>(line);
         if (json.is_object() && json.contains("epoch") && json["epoch"].is_number_unsigned() &&
-            json["epoch"] <= epochs)
+            json["epoch"] <= epochs) {
             kept += line + "\n";
+            curves += tensorboard_event(json, now());
+        }
     }
-    file.close();
-    write_whole(path, kept);
+    if (file.is_open()) {
+        file.close();
+        write_whole(path, kept);
+    }
+    if (tensorboard_) write_whole(events(), curves);
 }
 
 }  // namespace actformer::model

@@ -1,4 +1,5 @@
-// A training's folder: config.yaml, log.jsonl, checkpoints and weights, held by one process at a time.
+// A training's folder: config.yaml, log.jsonl, checkpoints and weights, held by one process at a time; where it is asked for, its curves for
+// TensorBoard in events.out.tfevents.actformer.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +16,7 @@ namespace actformer::model {
 class RunFolder {
   public:
     /// Opens or makes `folder`. Throws Error where it cannot be made, or another process trains there.
-    explicit RunFolder(std::filesystem::path folder);
+    explicit RunFolder(std::filesystem::path folder, bool tensorboard = false);
 
     const std::filesystem::path& path() const { return folder_; }
     std::filesystem::path config() const { return folder_ / "config.yaml"; }
@@ -24,14 +25,18 @@ class RunFolder {
     /// Error naming what differs.
     void keep_to(const Config& config) const;
 
-    /// Adds a line to log.jsonl.
+    /// Adds a line to log.jsonl, and its numbers to TensorBoard's file.
     void log(const nlohmann::ordered_json& line) const;
 
-    /// Keeps of log.jsonl the lines of the first `epochs` epochs: those after them are trained, and logged, again.
+    /// Keeps of log.jsonl the lines of the first `epochs` epochs: those after them are trained, and logged, again. TensorBoard's file is
+    /// made of these lines anew.
     void rewind_log(std::uint64_t epochs) const;
 
   private:
+    std::filesystem::path events() const { return folder_ / "events.out.tfevents.actformer"; }
+
     std::filesystem::path folder_;
+    bool tensorboard_;
     std::optional<FileLock> lock_;
 };
 

@@ -86,7 +86,7 @@ Loop::Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup
     windows_a_step_ = learner.windows_a_step() * static_cast<std::uint64_t>(processes_.place().size);
     steps_an_epoch_ = (setup.clips.table().clips() + windows_a_step_ - 1) / windows_a_step_;
     if (leads()) {
-        folder_ = std::make_unique<RunFolder>(run);
+        folder_ = std::make_unique<RunFolder>(run, settings_.tensorboard);
         folder_->keep_to(task_.config);
         resume();
     }

@@ -16,6 +16,7 @@ struct TrainerSettings {
         rate_drops;  ///< epochs, from 0, at whose start the rates are multiplied by rate_factor
     double rate_factor = 1;
     double checkpoint_minutes = 5;
+    bool tensorboard = false;  ///< curves for TensorBoard beside the log
     std::uint64_t seed = 0;
     std::string device = "cpu",
                 opencl;  ///< of libtorch, as in "cuda:0"; of the sampler, as --device elsewhere
@@ -54,6 +55,9 @@ void add_trainer_keys(KeyTable<Settings>& table) {
                                              .least = 0,
                                              .most = 1e6,
                                              .free = true})
+        .add(&Settings::tensorboard, {.name = "tensorboard",
+                                      .meaning = "keep the curves as TensorBoard reads them, too",
+                                      .free = true})
         .add(&Settings::seed, {.name = "seed", .meaning = "of all that is random", .least = 0, .most = 9e15})
         .add(&Settings::device,
              {.name = "device", .meaning = "where libtorch trains: cpu, cuda or cuda:N", .free = true})
