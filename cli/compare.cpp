@@ -130,6 +130,12 @@ std::string text_of(const eval::Interval& interval, bool with_sign = false) {
     return interval.half_width ? mean + " ± " + reports::figure_text(*interval.half_width) : mean;
 }
 
+/// "accuracy %"
+std::string heading(const reports::Metric& metric) {
+    const auto* known = eval::find_metric(metric.name);
+    return known && !known->unit.empty() ? fmt::format("{} {}", metric.heading, known->unit) : metric.heading;
+}
+
 const char* verdict(const Compared& one) {
     if (!one.difference.half_width) return "one repeat: chance is not told";
     if (!one.b_better) return "no difference shown";
@@ -140,7 +146,7 @@ void print(const std::vector<Compared>& all, const reports::Sweep& sweep) {
     for (const auto& row : sweep.rows) say("{}\n", row.name);
     say("\n{:<18} {:>18} {:>18} {:>18} {:>9}\n", "", "A", "B", "B - A", "real");
     for (const auto& one : all)
-        say("{:<18} {:>18} {:>18} {:>18} {:>9}   {}\n", one.metric.heading, text_of(one.a), text_of(one.b),
+        say("{:<18} {:>18} {:>18} {:>18} {:>9}   {}\n", heading(one.metric), text_of(one.a), text_of(one.b),
             text_of(one.difference, true), one.real ? reports::figure_text(*one.real) : "", verdict(one));
     say("\nintervals of 95 %, of differences seed by seed\n");
 }
@@ -194,7 +200,8 @@ void run(const CompareOptions& options) {
             options.a.string(), options.b.string());
     add_table(sweep, all, fs::absolute(options.real / "").parent_path().filename().string());
     reports::write_results(sweep, plan, out);
-    write_report({.folders = {out}, .out = out / "report.html", .title = "A comparison"});
+    write_report(
+        {.folders = {out}, .out = out / "report.html", .title = "A comparison", .filled_only = true});
     if (options.json)
         fmt::print("{}\n", to_json(all, out / "report.html").dump(2));
     else

@@ -1,10 +1,14 @@
 // actformer report: the papers' tables and all that stands behind them, as one HTML file.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <memory>
+#include <thread>
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/process/interruption.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/report.hpp"
@@ -27,6 +31,26 @@ std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
     return cells;
 }
 
+bool anything_left(const std::vector<fs::path>& folders) {
+    const auto measured = reports::read_measured(folders);
+    return std::ranges::any_of(measured.rows, [](const auto& row) { return row.status == "waiting"; });
+}
+
+/// Writes the page anew every so many seconds, until nothing is left to be measured or a signal comes.
+void watch(const ReportOptions& options, unsigned seconds) {
+    const SafePoints safe_points;
+    for (;;) {
+        const bool left = anything_left(options.folders);
+        write_report(options);
+        if (!left) return;
+        const auto next = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
+        while (std::chrono::steady_clock::now() < next) {
+            if (safe_points.asked()) safe_points.stop("the page is as it was last written");
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+    }
+}
+
 }  // namespace
 
 void write_report(const ReportOptions& options) {
@@ -34,6 +58,7 @@ void write_report(const ReportOptions& options) {
         if (!path.empty()) check_output(path);
     auto measured = reports::read_measured(options.folders);
     auto tables = reports::fill_tables(measured);
+    if (options.filled_only) std::erase_if(tables, [](const auto& table) { return !table.has_rows(); });
     const auto figures = measured_cells(tables);
     const reports::RowTables rows(measured);
     tables.insert(tables.end(), rows.filled().begin(), rows.filled().end());
@@ -65,15 +90,23 @@ void add_report(CLI::App& app) {
                      "What the motions may add to the page, MB")
         ->check(CLI::Range(0.0, 1000.0))
         ->capture_default_str();
+    const auto seconds = std::make_shared<unsigned>(0);
+    command->add_option("--watch", *seconds, "Write it anew every so many seconds until the sweeps are done")
+        ->check(CLI::Range(1, 86400))
+        ->type_name("SECONDS");
     command->add_flag("--json", options->json, "Print the tables as JSON");
     examples(command,
              "  actformer report out/mini -o report.html\n"
              "  actformer report out/table3 out/table4 -o report.html --csv tables.csv --latex tables.tex\n"
+             "  actformer report out/mini -o report.html --watch 60\n"
              "  actformer report out/mini --json");
-    command->callback([options] {
+    command->callback([options, seconds] {
         if (options->out.empty() && options->csv.empty() && options->latex.empty() && !options->json)
             throw Error("nothing to write: give -o report.html, --csv FILE, --latex FILE or --json");
-        write_report(*options);
+        if (*seconds > 0)
+            watch(*options, *seconds);
+        else
+            write_report(*options);
     });
 }
 

@@ -13,6 +13,7 @@ struct ReportOptions {
     std::string title = "ActFormer, measured";
     double motion_megabytes = 12;
     bool json = false;
+    bool filled_only = false;  ///< leave out tables that nothing was run for
 };
 
 /// Says on standard error what it wrote and what is missing. Throws Error for folders without results.

@@ -20,8 +20,7 @@ def includes_torch(path):
     return reaches[path]
 
 
-for entry in json.loads((root / "build/lint/compile_commands.json").read_text()):
-    source = pathlib.Path(entry["file"])
+for source in dict.fromkeys(pathlib.Path(entry["file"]) for entry in json.loads((root / "build/lint/compile_commands.json").read_text())):
     below = source.relative_to(root) if source.is_relative_to(root) else None
     if below and below.parts[0] not in ("tests", "build") and not includes_torch(source):
         print(below)

@@ -20,6 +20,10 @@ Interval interval(std::span<const double> values);
 /// The same with the normal distribution's 1.96 in place of t, as papers have it.
 Interval normal_interval(std::span<const double> values);
 
+/// mean(b) - mean(a) of two samples that have nothing to do with one another and need not vary alike, with its 95 % confidence interval
+/// (Welch, Biometrika 1947). Each of at least one value; no half-width where one has no more.
+Interval difference(std::span<const double> a, std::span<const double> b);
+
 /// t with P(|T| <= t) = 0.95 for `degrees` degrees of freedom, at least 1.
 double student_95(std::size_t degrees);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <tuple>
 
 #include "base/text/csv.hpp"
@@ -15,6 +16,7 @@ using Json = nlohmann::ordered_json;
 Json figures_json(const Figures& figures) {
     Json out{{"mean", nullptr},
              {"ci95", nullptr},
+             {"over", over_what(figures)},
              {"repeats", figures.repeats},
              {"best", figures.best},
              {"paper", nullptr},
@@ -38,14 +40,14 @@ Json group_json(const CellGroup& group, const PaperColumns& columns) {
     return out;
 }
 
-/// mean,ci95,repeats,paper,paper_ci95; what there is not is empty.
+/// mean,ci95,over,repeats,paper,paper_ci95; what there is not is empty.
 std::string csv_figures(const Figures& figures) {
     const auto text = [](const std::optional<double>& value) {
         return value ? fmt::format("{}", *value) : std::string();
     };
     const auto& [measured, paper] = std::tie(figures.measured, figures.paper);
-    return fmt::format("{},{},{},{},{}", measured ? fmt::format("{}", measured->mean) : "",
-                       measured ? text(measured->half_width) : "", figures.repeats,
+    return fmt::format("{},{},{},{},{},{}", measured ? fmt::format("{}", measured->mean) : "",
+                       measured ? text(measured->half_width) : "", over_what(figures), figures.repeats,
                        paper.at_hand ? text(paper.value) : "not at hand", text(paper.half_width));
 }
 
@@ -99,10 +101,17 @@ std::string with_origin(const FilledTable& table, std::size_t column) {
 
 /// The paper's, and what the motions of each column are.
 std::string latex_caption(const FilledTable& table) {
-    std::vector<std::string> sentences{table.paper->caption};
+    std::vector<std::string> sentences;
+    if (!table.paper->caption.empty()) sentences.push_back(table.paper->caption);
     for (std::size_t c = 0; c < table.paper->columns.size(); ++c)
         if (const auto origin = origin_of(table, c); !origin.empty())
             sentences.push_back(fmt::format("{}: {}", table.paper->columns[c].dataset, origin));
+    std::set<std::string> over;
+    for (const auto& row : table.rows)
+        for (const auto& group : row)
+            for (const auto& figures : group.figures) over.insert(over_what(figures));
+    over.erase("");
+    if (!over.empty()) sentences.push_back(fmt::format("Intervals of 95 % over {}", fmt::join(over, " or ")));
     return fmt::format("{}", fmt::join(sentences, ". "));
 }
 
@@ -156,7 +165,7 @@ nlohmann::ordered_json to_json(const std::vector<FilledTable>& tables,
 }
 
 std::string to_csv(const std::vector<FilledTable>& tables) {
-    std::string out = "table,row,dataset,metric,state,mean,ci95,repeats,paper,paper_ci95,origin\n";
+    std::string out = "table,row,dataset,metric,state,mean,ci95,over,repeats,paper,paper_ci95,origin\n";
     for (const auto& table : tables)
         for (std::size_t r = 0; r < table.rows.size(); ++r)
             for (std::size_t c = 0; c < table.rows[r].size(); ++c) {

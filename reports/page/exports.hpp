@@ -6,12 +6,12 @@
 namespace actformer::reports {
 
 /// {"tables": [{"id", "title", "caption", "source", "rows": [{"name", "groups": [{"dataset", "state", "provenance": [..], "metrics":
-/// {"fid_mean": {"mean", "ci95", "repeats", "best", "paper", "paper_ci95", "paper_at_hand"}}}]}]}], "notices": [..]}; null where
+/// {"fid_mean": {"mean", "ci95", "over", "repeats", "best", "paper", "paper_ci95", "paper_at_hand"}}}]}]}], "notices": [..]}; null where
 /// nothing was measured, or the paper prints nothing.
 nlohmann::ordered_json to_json(const std::vector<FilledTable>& tables,
                                const std::vector<std::string>& notices);
 
-/// One line a cell: table,row,dataset,metric,state,mean,ci95,repeats,paper,paper_ci95.
+/// One line a cell: table,row,dataset,metric,state,mean,ci95,over,repeats,paper,paper_ci95,origin.
 std::string to_csv(const std::vector<FilledTable>& tables);
 
 /// A `table` with booktabs rules each: measured figures, intervals in small print, the best of a column in bold, "--" for what

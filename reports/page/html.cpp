@@ -171,16 +171,20 @@ std::string html_note(const std::vector<FilledTable>& tables, const std::vector<
 
 std::string html_links(const std::vector<FilledTable>& tables) {
     const std::string word = "Table ";
-    std::string papers, rows;
+    std::string out;
+    bool of_rows = false;
     for (const auto& table : tables) {
-        const std::string title = table.paper->title;
-        const bool numbered = title.starts_with(word);
-        if (!numbered && !rows.empty()) continue;  // the tables of all rows stand together
-        (numbered ? papers : rows) +=
-            fmt::format(" <a href=\"#{}\" aria-label=\"{}\">{}</a>", table.paper->id, escaped(title),
-                        numbered ? escaped(title.substr(word.size())) : "all rows");
+        std::string text = table.paper->title;
+        if (text.starts_with(word)) text.erase(0, word.size());
+        if (table.all_rows) {
+            if (of_rows) continue;  // they stand together
+            of_rows = true;
+            text = "all rows";
+        }
+        out += fmt::format(" <a href=\"#{}\" aria-label=\"{}\">{}</a>", table.paper->id,
+                           escaped(table.paper->title), escaped(text));
     }
-    return papers + rows;
+    return out;
 }
 
 std::string html_tables(const std::vector<FilledTable>& tables) {

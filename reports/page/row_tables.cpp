@@ -63,8 +63,8 @@ PaperTable empty_table(const Rows& rows, std::size_t number) {
     out.id = fmt::format("rows{}", number);
     out.title = fmt::format("Rows on {}", rows[0]->dataset);
     out.caption = fmt::format("All that was scored, split {}", rows[0]->split);
-    out.source =
-        fmt::format("Sweep {}: means over seeds and repeats with their 95 % intervals", rows[0]->sweep);
+    out.source = fmt::format(
+        "Sweep {}: means and their 95 % intervals, over seeds where several were trained", rows[0]->sweep);
     out.columns = {{rows[0]->dataset, metrics_of(rows)}};
     const std::vector<std::vector<PaperFigure>> none{std::vector<PaperFigure>(out.columns[0].metrics.size())};
     for (const auto* row : rows) out.rows.push_back({row->name, none});
@@ -88,7 +88,7 @@ CellGroup real_group(const Rows& rows, const PaperColumns& columns) {
 RowTables::RowTables(const Measured& measured) {
     for (const auto& rows : held_together(measured)) {
         const auto& table = tables_.emplace_back(empty_table(rows, tables_.size() + 1));
-        auto& filled = filled_.emplace_back(FilledTable{&table, {}});
+        auto& filled = filled_.emplace_back(FilledTable{&table, {}, true});
         for (const auto* row : rows) filled.rows.push_back({measured_group(table.columns[0], *row)});
         filled.rows.push_back({real_group(rows, table.columns[0])});
         mark_best(filled);

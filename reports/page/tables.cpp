@@ -14,13 +14,27 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The repeats of one metric over all runs that have scores.
-std::vector<double> repeats_of(const MeasuredRow& row, const Metric& metric) {
+std::vector<double> repeats_of(const MeasuredRun& run, const Metric& metric) {
     std::vector<double> values;
-    for (const auto& run : row.runs)
-        for (const auto& value : loose::list(loose::member(run.scored, metric.name.c_str()), "repeats"))
-            if (value.is_number()) values.push_back(metric.scale * value.get<double>());
+    for (const auto& value : loose::list(loose::member(run.scored, metric.name.c_str()), "repeats"))
+        if (value.is_number()) values.push_back(metric.scale * value.get<double>());
     return values;
+}
+
+/// What a row has measured of a metric.
+Figures figures_of(const MeasuredRow& row, const Metric& metric) {
+    Figures out;
+    std::vector<double> seeds, repeats;
+    for (const auto& run : row.runs)
+        if (const auto of_it = repeats_of(run, metric); !of_it.empty()) {
+            repeats.insert(repeats.end(), of_it.begin(), of_it.end());
+            seeds.push_back(eval::interval(of_it).mean);
+        }
+    out.repeats = repeats.size();
+    out.over_seeds = seeds.size() > 1;
+    out.values = out.over_seeds ? std::move(seeds) : std::move(repeats);
+    if (!out.values.empty()) out.measured = eval::interval(out.values);
+    return out;
 }
 
 /// What real motions come to, the mean over all runs whose scores tell.
@@ -41,11 +55,11 @@ CellState state_of(const MeasuredRow& row) {
 }
 
 FilledTable empty_table(const PaperTable& paper) {
-    FilledTable table{&paper, {}};
+    FilledTable table{&paper, {}, false};
     for (const auto& row : paper.rows) {
         auto& groups = table.rows.emplace_back(paper.columns.size());
         for (std::size_t c = 0; c < paper.columns.size(); ++c)
-            for (const auto& figure : row.figures[c]) groups[c].figures.push_back({{}, 0, {}, figure});
+            for (const auto& figure : row.figures[c]) groups[c].figures.emplace_back().paper = figure;
     }
     return table;
 }
@@ -59,35 +73,61 @@ struct Column {
     eval::Direction better() const { return table.paper->columns[dataset].metrics[metric].better; }
 };
 
-/// Marks the rows whose value, which `value` gives where there is one, is the best; `real` gives what real motions have beside it. The
-/// row of real motions is no candidate.
-template <typename Value, typename Real>
-void mark_best(Column column, Value value, Real real, bool Figures::*mark) {
-    std::vector<std::optional<double>> distances(column.table.rows.size());
-    std::optional<double> best;
-    for (std::size_t r = 0; r < distances.size(); ++r) {
-        const std::optional<double> mine = value(column.at(r)), ideal = real(column.at(r));
+/// How far the values of a row are from the best that there is.
+struct Candidate {
+    std::size_t row;
+    std::vector<double> distances;
+};
+
+double mean_of(const Candidate& candidate) {
+    return eval::interval(candidate.distances).mean;
+}
+
+/// Rows that can be compared, best first; `values` gives a row's numbers, `real` what real motions have beside them. The row of real
+/// motions is no candidate.
+template <typename Values, typename Real>
+std::vector<Candidate> candidates(Column column, Values values, Real real) {
+    std::vector<Candidate> out;
+    for (std::size_t r = 0; r < column.table.rows.size(); ++r) {
+        const std::vector<double> mine = values(column.at(r));
+        const std::optional<double> ideal = real(column.at(r));
         const bool comparable = ideal || column.better() != eval::Direction::nearest_real;
-        if (!mine || !std::isfinite(*mine) || !comparable || column.table.paper->real == r) continue;
-        distances[r] = distance_from_best(column.better(), *mine, ideal.value_or(0));
-        if (!best || *distances[r] < *best) best = distances[r];
+        const bool finite = std::ranges::all_of(mine, [](double value) { return std::isfinite(value); });
+        if (mine.empty() || !finite || !comparable || column.table.paper->real == r) continue;
+        auto& candidate = out.emplace_back(Candidate{r, {}});
+        for (const double value : mine)
+            candidate.distances.push_back(distance_from_best(column.better(), value, ideal.value_or(0)));
     }
-    for (std::size_t r = 0; r < distances.size(); ++r)
-        if (distances[r] && *distances[r] == *best) column.at(r).*mark = true;
+    std::ranges::stable_sort(out, {}, mean_of);
+    return out;
+}
+
+/// Chance alone is not enough to make `one` that much further away than `best`.
+bool surely_further(const Candidate& one, const Candidate& best) {
+    const auto further = eval::difference(best.distances, one.distances);
+    return further.half_width && further.mean > *further.half_width;
 }
 
 void mark_best(Column column) {
-    const auto measured = [](const Figures& f) {
-        return f.measured ? std::optional(f.measured->mean) : std::nullopt;
+    const auto printed = [](const Figures& f) {
+        return f.paper.value ? std::vector{*f.paper.value} : std::vector<double>();
     };
-    const auto printed = [](const Figures& f) { return f.paper.value; };
     const auto real_row = column.table.paper->real;
-    const auto measured_real = real_row ? measured(column.at(*real_row)) : std::nullopt;
-    const auto printed_real = real_row ? printed(column.at(*real_row)) : std::nullopt;
-    mark_best(
-        column, measured, [&](const Figures& f) { return f.real ? f.real : measured_real; }, &Figures::best);
-    mark_best(
-        column, printed, [&](const Figures&) { return printed_real; }, &Figures::paper_best);
+    std::optional<double> measured_real, printed_real;
+    if (real_row && column.at(*real_row).measured) measured_real = column.at(*real_row).measured->mean;
+    if (real_row) printed_real = column.at(*real_row).paper.value;
+
+    const auto in_paper = candidates(column, printed, [&](const Figures&) { return printed_real; });
+    for (const auto& one : in_paper)
+        if (mean_of(one) == mean_of(in_paper[0])) column.at(one.row).paper_best = true;
+
+    const auto measured = candidates(
+        column, [](const Figures& f) { return f.values; },
+        [&](const Figures& f) { return f.real ? f.real : measured_real; });
+    if (measured.size() > 1)
+        column.at(measured[0].row).best =
+            std::all_of(measured.begin() + 1, measured.end(),
+                        [&](const Candidate& one) { return surely_further(one, measured[0]); });
 }
 
 /// What the scores say of where they come from.
@@ -109,11 +149,8 @@ void add_score_lines(const Json& scored, std::vector<std::string>& lines) {
 CellGroup measured_group(const PaperColumns& columns, const MeasuredRow& row) {
     CellGroup group{state_of(row), &row, std::vector<Figures>(columns.metrics.size())};
     for (std::size_t m = 0; m < columns.metrics.size(); ++m) {
-        const auto values = repeats_of(row, columns.metrics[m]);
-        auto& figures = group.figures[m];
-        figures.repeats = values.size();
-        figures.measured = values.empty() ? std::nullopt : std::optional(eval::interval(values));
-        figures.real = real_value(row, columns.metrics[m]);
+        group.figures[m] = figures_of(row, columns.metrics[m]);
+        group.figures[m].real = real_value(row, columns.metrics[m]);
     }
     return group;
 }
@@ -151,9 +188,20 @@ std::vector<FilledTable> fill_tables(Measured& measured) {
     return tables;
 }
 
+bool FilledTable::has_rows() const {
+    return std::ranges::any_of(rows, [](const auto& row) {
+        return std::ranges::any_of(row, [](const CellGroup& group) { return group.row != nullptr; });
+    });
+}
+
 const char* in_words(CellState state) {
     static constexpr const char* words[] = {"not run", "not finished", "failed", "measured"};
     return words[static_cast<std::size_t>(state)];
+}
+
+std::string over_what(const Figures& figures) {
+    if (!figures.measured || !figures.measured->half_width) return "";
+    return fmt::format("{} {}", figures.values.size(), figures.over_seeds ? "seeds" : "repeats");
 }
 
 std::string figure_text(double value) {
@@ -192,6 +240,7 @@ std::vector<std::string> provenance(const CellGroup& group) {
     if (!seeds.empty())
         lines.push_back(
             fmt::format("seeds {}; {} repeats of generation and scoring", seeds, group.figures[0].repeats));
+    if (const auto over = over_what(group.figures[0]); !over.empty()) lines.push_back("± over " + over);
     std::string settings;
     for (const auto& [key, value] : row.settings.items())
         settings += fmt::format("{}{}={}", settings.empty() ? "" : " ", key,

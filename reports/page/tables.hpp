@@ -11,11 +11,16 @@ namespace actformer::reports {
 
 /// One metric, scaled as its table prints it.
 struct Figures {
-    std::optional<eval::Interval> measured;  ///< over all repeats of all done runs of the row
-    std::size_t repeats = 0;
+    std::optional<eval::Interval> measured;
+    std::vector<double>
+        values;  ///< what that is the mean of: one a seed that was trained, its repeats' mean, or the repeats of a single one
+    std::size_t repeats = 0;  ///< of all seeds
+    bool over_seeds = false;
     std::optional<double> real;  ///< of real motions, where the scores tell
     PaperFigure paper;
-    bool best = false, paper_best = false;  ///< of the table's column, by the metric's direction
+    /// Of the table's column, by the metric's direction: better than each of the others by a difference whose 95 % interval holds no 0; and the
+    /// best of those that the paper prints.
+    bool best = false, paper_best = false;
 };
 
 enum class CellState { not_run, waiting, failed, measured };
@@ -33,10 +38,17 @@ struct CellGroup {
 struct FilledTable {
     const PaperTable* paper = nullptr;
     std::vector<std::vector<CellGroup>> rows;  ///< (paper rows, datasets)
+    bool all_rows = false;                     ///< no paper's: all rows that were measured on one dataset
+
+    /// Whether a row of a sweep fills any of it.
+    bool has_rows() const;
 };
 
 /// What a row has measured of a table's columns.
 CellGroup measured_group(const PaperColumns& columns, const MeasuredRow& row);
+
+/// "3 seeds", "5 repeats": what an interval is over; empty without one.
+std::string over_what(const Figures& figures);
 
 /// Marks the best of every column, measured and printed.
 void mark_best(FilledTable& table);

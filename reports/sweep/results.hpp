@@ -10,7 +10,7 @@
 //                   "dataset": folder}]}]}
 //     Paths begin with OUT's own folder left out where they lie in it ("jobs/score-0123456789ab/scores.json"), else they are
 //     whole; what is not there yet is not there yet. Only runs whose status is "done" have scores that count. A cell's value
-//     is the mean over all repeats of all done runs of the one row that fills it; a cell that no row fills, or whose row has
+//     is the mean over the done runs of the one row that fills it, each its repeats' mean; a cell that no row fills, or whose row has
 //     no done run, is "not run". Names are text from a user's file.
 //   OUT/jobs/KIND-FINGERPRINT/  job.json (title, commands), log.txt, what the commands made, then done.json (seconds, finished, made: the
 //                               checksums of what they made) or failed.json (why)

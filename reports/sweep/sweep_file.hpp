@@ -35,7 +35,7 @@ struct SweepRow {
     std::vector<std::string>
         motions;  ///< in place of a generator, whatever `config` and `weights` say: each file a repeat
     Settings set;
-    std::vector<std::uint64_t> seeds{0};
+    std::vector<std::uint64_t> seeds{0, 1, 2};
     std::uint64_t repeats = 20, per_class = 100, window = 60;
     std::string split = "xsub/train", device;
     std::vector<std::string> fills;  ///< cells, see find_cell

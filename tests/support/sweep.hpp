@@ -49,7 +49,7 @@ struct SweepFixture : testing::Test {
                    "  two: {like: one, use: ntu-2p}\n"
                    "recognisers:\n"
                    "  one: {data: one, config: r.yaml, set: {epochs: 2}}\n"
-                   "base: {data: one, recogniser: one, config: g.yaml, repeats: 3, set: {epochs: 5}}\n" +
+                   "base: {data: one, recogniser: one, config: g.yaml, seeds: [0], repeats: 3, set: {epochs: 5}}\n" +
                        more + "rows:\n" + rows);
     }
     std::string command(const std::string& more = "") const {

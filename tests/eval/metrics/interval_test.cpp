@@ -18,6 +18,17 @@ TEST(Interval, TakesStudentsQuantiles) {
     EXPECT_NEAR(eval::student_95(100'001), 1.960, 5e-4);
 }
 
+TEST(Interval, OfADifferenceIsWelchs) {
+    // SciPy 1.10: t.ppf(0.975, 4.655) * sqrt(var(a) / 4 + var(b) / 3), the degrees of freedom by Welch and Satterthwaite
+    const std::vector<double> a{1, 2, 3, 6}, b{5, 7, 9};
+    const auto got = eval::difference(a, b);
+    EXPECT_EQ(got.mean, 4);
+    EXPECT_NEAR(*got.half_width, 4.156693, 1e-5);
+    EXPECT_FALSE(eval::difference(a, std::vector<double>{5}).half_width);
+    const std::vector<double> same{5, 5};
+    EXPECT_EQ(eval::difference(same, same).half_width, 0);
+}
+
 TEST(Interval, OfRepeats) {
     const std::vector<double> values{1, 2, 3, 6};  // s^2 = 14 / 3
     const auto got = eval::interval(values);

@@ -68,15 +68,16 @@ const CellGroup& group(const std::vector<FilledTable>& tables, const std::string
     return tables[static_cast<std::size_t>(cell.table - paper_tables().data())].rows[cell.row][cell.columns];
 }
 
-TEST_F(Report, ACellIsTheMeanOfAllRepeatsOfAllSeeds) {
-    add("full", "table3/full/NTU-1P", {scores({0.2, 0.4}, {1, 2}), scores({0.6}, {6})});
+TEST_F(Report, ACellIsTheMeanOverSeeds) {
+    add("full", "table3/full/NTU-1P", {scores({0.2, 0.4}, {1, 3}), scores({0.6}, {6}), scores({0.3}, {1})});
     auto measured = read();
     const auto tables = fill_tables(measured);
     const auto& cell = group(tables, "table3/full/NTU-1P");
     ASSERT_EQ(cell.state, CellState::measured);
-    EXPECT_EQ(cell.figures[0].repeats, 3U);
-    EXPECT_DOUBLE_EQ(cell.figures[0].measured->mean, 40) << "accuracies are in per cent";
-    EXPECT_DOUBLE_EQ(cell.figures[1].measured->mean, 3);
+    EXPECT_EQ(cell.figures[0].repeats, 4U);
+    EXPECT_EQ(over_what(cell.figures[0]), "3 seeds");
+    EXPECT_DOUBLE_EQ(cell.figures[0].measured->mean, 40) << "30, 60 and 30, accuracies being in per cent";
+    EXPECT_DOUBLE_EQ(cell.figures[1].measured->mean, 3) << "2, 6 and 1";
     // t(0.975, 2) = 4.30265, s = sqrt(7): from any table of Student's distribution
     EXPECT_NEAR(*cell.figures[1].measured->half_width, 4.30265 * std::sqrt(7.0 / 3), 1e-4);
     EXPECT_FALSE(cell.figures[2].measured) << "FIDw is not among the scores";
@@ -84,9 +85,27 @@ TEST_F(Report, ACellIsTheMeanOfAllRepeatsOfAllSeeds) {
     EXPECT_TRUE(measured.notices.empty());
 }
 
+TEST_F(Report, OneTrainingHasAnIntervalOverItsRepeats) {
+    add("full", "table3/full/NTU-1P", {scores({0.2, 0.4, 0.6}, {1, 2, 6})});
+    auto measured = read();
+    const auto& cell = group(fill_tables(measured), "table3/full/NTU-1P");
+    EXPECT_EQ(over_what(cell.figures[0]), "3 repeats");
+    EXPECT_FALSE(cell.figures[0].best) << "there is no other row";
+}
+
+TEST_F(Report, WhatChanceMayHaveMadeIsNotTheBest) {
+    add("full", "table3/full/NTU-1P", {scores({0.5, 0.6, 0.7}, {4})});
+    add("gaussian", "table3/Gaussian prior/NTU-1P", {scores({0.55, 0.65, 0.75}, {9})});
+    auto measured = read();
+    const auto tables = fill_tables(measured);
+    for (const auto* row : {"full", "Gaussian prior"})
+        for (const auto& figures : group(tables, "table3/" + std::string(row) + "/NTU-1P").figures)
+            EXPECT_FALSE(figures.best) << row << ": intervals overlap, and one repeat has none";
+}
+
 TEST_F(Report, TheBestOfAColumnIsTheHighestAccuracyAndTheLowestDistance) {
-    add("full", "table3/full/NTU-1P", {scores({0.5}, {4})});
-    add("gaussian", "table3/Gaussian prior/NTU-1P", {scores({0.7}, {9})});
+    add("full", "table3/full/NTU-1P", {scores({0.5, 0.51}, {4, 4.1})});
+    add("gaussian", "table3/Gaussian prior/NTU-1P", {scores({0.7, 0.71}, {9, 9.1})});
     auto measured = read();
     const auto tables = fill_tables(measured);
     const auto &full = group(tables, "table3/full/NTU-1P"),
@@ -100,13 +119,13 @@ TEST_F(Report, TheBestOfAColumnIsTheHighestAccuracyAndTheLowestDistance) {
 
 TEST_F(Report, RowsThatWereScoredAgainstTheSameMotionsStandSideBySide) {
     const auto with = [](Json scored, double tremble) {
-        scored["limb_acceleration"] = {{"mean", tremble}, {"repeats", {tremble}}};
+        scored["limb_acceleration"] = {{"mean", tremble}, {"repeats", {tremble, tremble * 1.01}}};
         scored["real"] = {{"accuracy", 0.9}, {"limb_acceleration", 1}};
         scored["floor"] = {{"fid_mean", 0.5}};
         return scored;
     };
-    add("full", "table3/full/NTU-1P", {with(scores({0.5, 0.7}, {4, 2}), 1.5)});
-    add("mine", "", {with(scores({0.4}, {9}), 0.9)})["fills"] = Json::array();
+    add("full", "table3/full/NTU-1P", {with(scores({0.59, 0.61}, {3.1, 2.9}), 1.5)});
+    add("mine", "", {with(scores({0.4, 0.41}, {9, 9.1}), 0.9)})["fills"] = Json::array();
     add("elsewhere", "", {scores({0.4}, {9})})["dataset"] = "two";
     add("not run", "", {})["status"] = "waiting";
     const auto measured = read();
@@ -127,7 +146,7 @@ TEST_F(Report, RowsThatWereScoredAgainstTheSameMotionsStandSideBySide) {
     const auto html = html_tables(tables.filled());
     EXPECT_NE(html.find("Rows on one"), std::string::npos);
     EXPECT_NE(html.find("limb tremble"), std::string::npos);
-    EXPECT_NE(to_csv(tables.filled()).find("\nrows1,real motions,one,fid_mean,measured,0.5,,0,,,\n"),
+    EXPECT_NE(to_csv(tables.filled()).find("\nrows1,real motions,one,fid_mean,measured,0.5,,,0,,,\n"),
               std::string::npos);
     EXPECT_NE(to_latex(tables.filled()).find("real motions & 90.00 & 0.50"), std::string::npos);
 }
@@ -147,7 +166,8 @@ TEST_F(Report, WhatShouldBeNearRealIsMarkedByItsDistanceFromReal) {
                    "  lost: {A: not at hand}\n",
                    "table9.yaml")};
     const auto run = [](double diversity, double real) {
-        return Json{{"diversity", {{"mean", 0}, {"repeats", {diversity}}}}, {"real", {{"diversity", real}}}};
+        return Json{{"diversity", {{"mean", 0}, {"repeats", {diversity, diversity + 0.01}}}},
+                    {"real", {{"diversity", real}}}};
     };
     add("near", "table9/near/A", {run(9, 8)});
     add("far", "table9/far/A", {run(6.5, 7)});
@@ -167,8 +187,8 @@ TEST_F(Report, WhatShouldBeNearRealIsMarkedByItsDistanceFromReal) {
     EXPECT_NE(html.find(">not at hand<"), std::string::npos);
     EXPECT_NE(html.find(">95.00 ± 0.50<"), std::string::npos);
     const auto csv = to_csv(tables);
-    EXPECT_NE(csv.find("\ntable9,far,A,accuracy,not measured,,,0,95,0.5,\n"), std::string::npos) << csv;
-    EXPECT_NE(csv.find("\ntable9,lost,A,diversity,not run,,,0,not at hand,,\n"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("\ntable9,far,A,accuracy,not measured,,,,0,95,0.5,\n"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("\ntable9,lost,A,diversity,not run,,,,0,not at hand,,\n"), std::string::npos) << csv;
     EXPECT_NE(to_latex(tables).find("diversity $\\rightarrow$"), std::string::npos);
 }
 
@@ -317,24 +337,28 @@ TEST_F(Report, CsvHasALineForEveryFigureOfThePaper) {
     add("full", "table3/full/NTU-1P", {scores({0.5, 0.7}, {4, 6})});
     auto measured = read();
     const auto csv = to_csv(fill_tables(measured));
+    EXPECT_NE(csv.find(",2 repeats,2,12.53,,"), std::string::npos) << csv;
     EXPECT_NE(csv.find("\ntable3,full,NTU-1P,fid_mean,measured,5,12.706"), std::string::npos)
         << "t(0.975, 1) = 12.706, s / sqrt(2) = 1";
-    EXPECT_NE(csv.find("\ntable3,fixed PE,NTU-1P,accuracy,not run,,,0,37.57,,\n"), std::string::npos);
+    EXPECT_NE(csv.find("\ntable3,fixed PE,NTU-1P,accuracy,not run,,,,0,37.57,,\n"), std::string::npos);
     // 4 rows of 12, then 4, 6 and 3 rows of 5 and their groups
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 12 + 4 * 9 + 4 * 3 + 6 * 5 + 3 * 9);
 }
 
 TEST_F(Report, LatexHasAsManyColumnsInEveryLine) {
-    add("full", "table3/full/NTU-1P", {scores({0.5, 0.7}, {4, 6})});
+    add("full", "table3/full/NTU-1P", {scores({0.599, 0.601}, {4.9, 5.1})});
+    add("fixed", "table3/fixed PE/NTU-1P", {scores({0.4, 0.401}, {9, 9.1})});
     auto measured = read();
+    EXPECT_NE(to_latex(fill_tables(measured)).find(". Intervals of 95 \\% over 2 repeats}"),
+              std::string::npos);
     std::istringstream latex(to_latex(fill_tables(measured)));
     bool in_third = false;
     for (std::string line; std::getline(latex, line);) {
         in_third = in_third || line == "\\begin{tabular}{lrrr}";
         if (in_third && line.starts_with("full &")) {
             EXPECT_EQ(line,
-                      "full & \\textbf{60.00}{\\scriptsize\\,$\\pm$127.06} & "
-                      "\\textbf{5.00}{\\scriptsize\\,$\\pm$12.71} & -- \\\\");
+                      "full & \\textbf{60.00}{\\scriptsize\\,$\\pm$1.27} & "
+                      "\\textbf{5.00}{\\scriptsize\\,$\\pm$1.27} & -- \\\\");
         }
         if (in_third && line.ends_with("\\\\") && line.find("multicolumn") == std::string::npos) {
             EXPECT_EQ(std::count(line.begin(), line.end(), '&'), 3) << line;
