@@ -134,7 +134,8 @@ Loaded load(const eval::GeneratedRequest& request) {
                 "{}: generates {} classes, and the real side has class {}; score on the data that it learnt",
                 request.generator, classes, label + 1);
     if (loaded.counts.empty()) loaded.counts.assign(loaded.labels.size(), request.per_class);
-    loaded.made_frames = loaded.maker->most_frames();
+    // As `generate` makes them: some methods could make longer ones, whose beginnings are others.
+    loaded.made_frames = static_cast<std::uint32_t>(loaded.file.configuration.get<std::int64_t>("frames"));
     if (loaded.frames > loaded.made_frames)
         throw Error("{}: --frames {}, but its motions have {}; ask for fewer", request.generator,
                     loaded.frames, loaded.made_frames);

@@ -72,6 +72,24 @@ TEST_F(ScoreGenerator, IsTheScoreOfGeneratedFiles) {
         << "weights in place of their folder";
 }
 
+/// ACTOR can make motions of thousands of frames, and one that is asked for more begins otherwise.
+TEST_F(ScoreGenerator, MakesMotionsAsLongAsGenerateDoes) {
+    write_file(dir / "actor.yaml",
+               "model: actor\nframes: 16\nwidth: 16\nheads: 2\nlayers: 1\nhidden: 16\nbatch: 6\nepochs: 1\n"
+               "train_split: s/train\nseed: 4\nthreads: 1\n");
+    ASSERT_EQ(run_actformer("train generator -c " + at("actor.yaml") + " --data " + toy().string() + " -o " +
+                            at("actor"))
+                  .exit,
+              0);
+    ASSERT_EQ(
+        run_actformer("generate --generator " + at("actor") + " -o " + at("m.h5") + " --per-class 9 --seed 5")
+            .exit,
+        0);
+    const auto here = scored("--generator " + at("actor") + " --per-class 9 --seed 5 --repeats 1");
+    const auto there = scored("--seed 5 --generated " + at("m.h5"));
+    for (const auto* key : {"fid_mean", "diversity", "confusion"}) EXPECT_EQ(here[key], there[key]) << key;
+}
+
 TEST_F(ScoreGenerator, MakesTheClassesOfTheSplitOnly) {
     const auto json = scored(generator("--split s/two"));
     EXPECT_EQ(json["per_class"][1]["generated"], 27);
