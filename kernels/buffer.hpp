@@ -109,7 +109,7 @@ class Buffer {
     /// out is undefined.
     template <typename Fill>
     void write_with(Fill fill) {
-        if (count_ > 0) fill(Mapping<T>(*device_, memory_, count_, CL_MAP_WRITE).values());
+        if (count_ > 0) fill(Mapping<T>(*device_, memory_, count_, CL_MAP_WRITE_INVALIDATE_REGION).values());
     }
 
   private:

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
+#include <tuple>
 
 #include "base/threads/parallel.hpp"
 #include "kernels/buffer.hpp"
@@ -66,12 +67,13 @@ std::string names_of(const std::vector<DeviceInfo>& devices) {
     return out;
 }
 
+/// A GPU with memory of its own before one that shares the machine's, however much that is.
 std::size_t default_device(const std::vector<DeviceInfo>& devices) {
-    const auto better = [](const DeviceInfo& a, const DeviceInfo& b) {
-        return std::pair(a.type == "GPU", a.type == "GPU" ? a.memory : 0) <
-               std::pair(b.type == "GPU", b.type == "GPU" ? b.memory : 0);
+    const auto rank = [](const DeviceInfo& d) {
+        const bool gpu = d.type == "GPU";
+        return std::tuple(gpu, gpu && !d.shares_memory, gpu ? d.memory : 0);
     };
-    return std::max_element(devices.begin(), devices.end(), better) - devices.begin();
+    return std::ranges::max_element(devices, {}, rank) - devices.begin();
 }
 
 }  // namespace
@@ -158,14 +160,19 @@ cl::Kernel Device::kernel_from(std::string_view text, std::string_view label, co
 std::array<std::size_t, 2> group_size(const Device& device, const cl::Kernel& kernel,
                                       std::array<std::size_t, 2> range, std::size_t wanted) {
     const auto target = std::min(wanted, kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device.handle()));
-    const std::size_t x = std::min(target, std::bit_ceil(range[0]));
-    return {x, std::max<std::size_t>(1, std::min(target / x, std::bit_ceil(range[1])))};
+    const auto most = device.handle().getInfo<CL_DEVICE_MAX_WORK_ITEM_SIZES>();  // three at least
+    const std::size_t x = std::min({target, std::bit_ceil(range[0]), most[0]});
+    return {x, std::max<std::size_t>(1, std::min({target / x, std::bit_ceil(range[1]), most[1]}))};
 }
 
 void raise(const DeviceInfo& device, std::string_view what, const cl::Error& error) {
     switch (error.err()) {
+        case CL_OUT_OF_RESOURCES:  // memory for the most part, and less of it may do; but drivers say so of other things, too
+            throw OutOfMemory(
+                "device {} ({}): out of memory, registers or time {} (CL_OUT_OF_RESOURCES); choose another "
+                "with --device",
+                device.index, device.name, what);
         case CL_MEM_OBJECT_ALLOCATION_FAILURE:
-        case CL_OUT_OF_RESOURCES:
         case CL_OUT_OF_HOST_MEMORY:
         case CL_INVALID_BUFFER_SIZE:
             throw OutOfMemory("device {} ({}): out of memory {}; choose another with --device", device.index,

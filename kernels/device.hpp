@@ -31,7 +31,8 @@ struct DeviceInfo {
 std::vector<DeviceInfo> list_devices();
 
 /// Index into `devices` of the one that `wish` means: a number, "gpu" or "cpu", or part of a name in any case.
-/// An empty wish means ACTFORMER_DEVICE where set, else the GPU with most memory, else the first device.
+/// An empty wish means ACTFORMER_DEVICE where set, else the GPU with most memory of its own, else one that shares the machine's, else the
+/// first device.
 /// Throws Error where nothing fits, naming what there is.
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view wish);
 

@@ -17,7 +17,7 @@ class TableReader {
     using Node = YAML::Node;
 
   public:
-    TableReader(Node root, const YamlPlace& place, std::string id) : place_(place), root_(std::move(root)) {
+    TableReader(const Node& root, const YamlPlace& place, std::string id) : place_(place), root_(root) {
         table_.id = std::move(id);
         place_.expect_map(root_, "a table");
     }

@@ -35,6 +35,8 @@ struct Choice : testing::Test {
 TEST_F(Choice, TakesTheLargestGpuByDefaultAndTheCpuWhereThereIsNoGpu) {
     auto devices = three_devices();
     EXPECT_EQ(choose_device(devices, ""), 2U);
+    devices[2].shares_memory = true;
+    EXPECT_EQ(choose_device(devices, ""), 1U) << "8 GiB of its own rather than 80 of the machine's";
     devices.resize(1);
     EXPECT_EQ(choose_device(devices, ""), 0U);
 }
