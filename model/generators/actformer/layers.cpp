@@ -37,7 +37,9 @@ class List {
 void add_positions(List& list, const GeneratorSettings& s) {
     const std::int64_t tokens = s.frames + 1, persons = s.tokens_a_frame(), width = s.width;
     const bool trained = s.positions != Positions::fixed;
-    const bool smooth = !trained || s.positions_start == PositionsStart::sinusoids;
+    // Numbers that all start on their own are what `independent` is about.
+    const bool smooth =
+        !trained || (s.positions_start == PositionsStart::sinusoids && s.positions != Positions::independent);
     const auto table = [&](const char* name, std::vector<std::int64_t> shape, Begin begin) {
         list.add({name, std::move(shape), begin, position_deviation, false, 0, trained});
     };

@@ -211,6 +211,9 @@ TEST_F(ActformerNetworks, LearntPositionsMayBeginAtTheFixedOnes) {
         settings.positions_start = PositionsStart::sinusoids;
         settings.positions = Positions::tiled;
         EXPECT_TRUE(Generator(settings, 1).named_parameters()["positions"].equal(fixed)) << persons;
+        settings.positions = Positions::independent;
+        EXPECT_FALSE(Generator(settings, 1).named_parameters()["positions"].equal(fixed))
+            << "its numbers each start on their own";
     }
     auto settings = tiny_generator(2);
     settings.positions = Positions::fixed;
