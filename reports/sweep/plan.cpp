@@ -65,7 +65,7 @@ class Planner {
     struct Made {
         std::optional<std::size_t> job;
         std::string path;
-        double clips = 0;      ///< of a dataset; 0 where that is not known yet
+        double clips = 0;        ///< of a dataset; 0 where that is not known yet
         std::string contents{};  ///< checksum of weights that are there
     };
 
