@@ -42,15 +42,16 @@ struct SweepFixture : testing::Test {
         write_file(dir / "g.yaml", "model: generator\n");
     }
     void sweep_file(const std::string& rows, const std::string& more = "") {
-        write_file(dir / "sweep.yaml",
-                   "name: test\n"
-                   "datasets:\n"
-                   "  one: {clips: 60, actions: 1-4, use: ntu-1p}\n"
-                   "  two: {like: one, use: ntu-2p}\n"
-                   "recognisers:\n"
-                   "  one: {data: one, config: r.yaml, set: {epochs: 2}}\n"
-                   "base: {data: one, recogniser: one, config: g.yaml, seeds: [0], repeats: 3, set: {epochs: 5}}\n" +
-                       more + "rows:\n" + rows);
+        write_file(
+            dir / "sweep.yaml",
+            "name: test\n"
+            "datasets:\n"
+            "  one: {clips: 60, actions: 1-4, use: ntu-1p}\n"
+            "  two: {like: one, use: ntu-2p}\n"
+            "recognisers:\n"
+            "  one: {data: one, config: r.yaml, set: {epochs: 2}}\n"
+            "base: {data: one, recogniser: one, config: g.yaml, seeds: [0], repeats: 3, set: {epochs: 5}}\n" +
+                more + "rows:\n" + rows);
     }
     std::string command(const std::string& more = "") const {
         return program() + " sweep " + at("sweep.yaml") + " -o " + at("out") + " --program " +
