@@ -31,18 +31,10 @@ std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
     return cells;
 }
 
-bool anything_left(const std::vector<fs::path>& folders) {
-    const auto measured = reports::read_measured(folders);
-    return std::ranges::any_of(measured.rows, [](const auto& row) { return row.status == "waiting"; });
-}
-
 /// Writes the page anew every so many seconds, until nothing is left to be measured or a signal comes.
 void watch(const ReportOptions& options, unsigned seconds) {
     const SafePoints safe_points;
-    for (;;) {
-        const bool left = anything_left(options.folders);
-        write_report(options);
-        if (!left) return;
+    while (write_report(options)) {
         const auto next = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
         while (std::chrono::steady_clock::now() < next) {
             if (safe_points.asked()) safe_points.stop("the page is as it was last written");
@@ -53,7 +45,7 @@ void watch(const ReportOptions& options, unsigned seconds) {
 
 }  // namespace
 
-void write_report(const ReportOptions& options) {
+bool write_report(const ReportOptions& options) {
     for (const auto& path : {options.out, options.csv, options.latex})
         if (!path.empty()) check_output(path);
     auto measured = reports::read_measured(options.folders);
@@ -74,6 +66,7 @@ void write_report(const ReportOptions& options) {
     if (!options.latex.empty()) write_whole(options.latex, reports::to_latex(tables));
     for (const auto& notice : measured.notices) say(stderr, "notice: {}\n", notice);
     if (options.json) fmt::print("{}\n", reports::to_json(tables, measured.notices).dump(2));
+    return std::ranges::any_of(measured.rows, [](const auto& row) { return row.status == "waiting"; });
 }
 
 void add_report(CLI::App& app) {

@@ -16,7 +16,8 @@ struct ReportOptions {
     bool filled_only = false;  ///< leave out tables that nothing was run for
 };
 
-/// Says on standard error what it wrote and what is missing. Throws Error for folders without results.
-void write_report(const ReportOptions& options);
+/// Says on standard error what it wrote and what is missing. Whether rows are still to be measured. Throws Error for folders without
+/// results.
+bool write_report(const ReportOptions& options);
 
 }  // namespace actformer::cli

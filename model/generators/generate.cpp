@@ -30,12 +30,11 @@ std::vector<std::uint32_t> labels_wanted(const GenerateRequest& request, const G
     return labels;
 }
 
-std::uint32_t frames_wanted(const GenerateRequest& request, const Config& config, std::uint32_t most) {
+std::uint32_t frames_wanted(const GenerateRequest& request, const GeneratorFile& file, std::uint32_t most) {
     if (request.frames > most)
         throw Error("{}: --frames {}, but it was made for at most {}; train one with frames={}",
                     request.generator.string(), request.frames, most, request.frames);
-    return request.frames == 0 ? static_cast<std::uint32_t>(config.get<std::int64_t>("frames"))
-                               : request.frames;
+    return request.frames == 0 ? file.frames() : request.frames;
 }
 
 /// Of what a network gives for one motion, (P*D, T, K).
@@ -68,7 +67,7 @@ GenerateSummary generate_here(const GenerateRequest& request,
                             spec.persons,
                             spec.numbers(),
                             spec.nodes(),
-                            frames_wanted(request, file.configuration, maker->most_frames())};
+                            frames_wanted(request, file, maker->most_frames())};
     ingest::MotionsWriter writer(request.out);
     describe(writer, request, file);
     const auto all = std::uint64_t{request.per_class} * labels.size();

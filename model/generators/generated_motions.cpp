@@ -135,7 +135,7 @@ Loaded load(const eval::GeneratedRequest& request) {
                 request.generator, classes, label + 1);
     if (loaded.counts.empty()) loaded.counts.assign(loaded.labels.size(), request.per_class);
     // As `generate` makes them: some methods could make longer ones, whose beginnings are others.
-    loaded.made_frames = static_cast<std::uint32_t>(loaded.file.configuration.get<std::int64_t>("frames"));
+    loaded.made_frames = loaded.file.frames();
     if (loaded.frames > loaded.made_frames)
         throw Error("{}: --frames {}, but its motions have {}; ask for fewer", request.generator,
                     loaded.frames, loaded.made_frames);

@@ -22,6 +22,11 @@ struct GeneratorFile {
     std::string checksum;  ///< of the file
     std::vector<Array> weights;
 
+    /// Frames of a motion where nobody asks for another number: those of the windows that it was trained on.
+    std::uint32_t frames() const {
+        return static_cast<std::uint32_t>(configuration.get<std::int64_t>("frames"));
+    }
+
     const Method& method() const { return method_named(configuration.model(), path.string()); }
 
     /// On libtorch's `device`. Throws Error where the weights are not those of the configuration's network.

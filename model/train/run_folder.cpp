@@ -41,8 +41,8 @@ void RunFolder::keep_to(const Config& config) const {
 
 void RunFolder::log(const nlohmann::ordered_json& line) const {
     append(folder_ / "log.jsonl", line.dump() + "\n");
-    if (const auto event = tensorboard_event(line, now()); tensorboard_ && !event.empty())
-        append(events(), event);
+    if (!tensorboard_) return;
+    if (const auto event = tensorboard_event(line, now()); !event.empty()) append(events(), event);
 }
 
 void RunFolder::rewind_log(std::uint64_t epochs) const {
@@ -54,7 +54,7 @@ void RunFolder::rewind_log(std::uint64_t epochs) const {
         if (json.is_object() && json.contains("epoch") && json["epoch"].is_number_unsigned() &&
             json["epoch"] <= epochs) {
             kept += line + "\n";
-            curves += tensorboard_event(json, now());
+            if (tensorboard_) curves += tensorboard_event(json, now());
         }
     }
     if (file.is_open()) {
