@@ -20,8 +20,6 @@
 namespace actformer::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
     std::size_t cells = 0;
     for (const auto& table : tables)
