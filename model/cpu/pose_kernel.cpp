@@ -1,14 +1,13 @@
 // Tokens to motions. The head's rows are taken number by number, (numbers, nodes), as motions lie: nodes are the vectors.
 #include <limits>
 
+#include "model/cpu/gram_schmidt.hpp"
 #include "model/cpu/kernel_support.hpp"
 #include "model/cpu/motion_kernels.hpp"
 #include "model/cpu/vector_math.hpp"
 
 namespace actformer::model::cpu {
 namespace {
-
-constexpr std::int64_t axes = 3;  // of space
 
 /// What scratch memory is for.
 struct TurnedWeight {};
@@ -27,7 +26,7 @@ struct HeadGrad {};
 struct HeadBiasGrad {};
 struct HeadWeight {};
 
-constexpr double length_epsilon = 1e-4, shortest = 1e-12;
+constexpr double length_epsilon = 1e-4;
 
 /// Rows (nodes, numbers) of `width` numbers to (numbers, nodes), or back.
 template <typename T>
@@ -37,22 +36,6 @@ void turn(const T* from, std::int64_t nodes, std::int64_t numbers, std::int64_t 
             const auto by_node = (k * numbers + d) * width, by_number = (d * nodes + k) * width;
             std::copy_n(from + (back ? by_number : by_node), width, to + (back ? by_node : by_number));
         }
-}
-
-/// Three numbers of some nodes.
-template <typename T>
-struct Vectors {
-    Lanes<T> x[axes];
-
-    Lanes<T>& operator[](std::int64_t d) { return x[d]; }
-    const Lanes<T>& operator[](std::int64_t d) const { return x[d]; }
-};
-
-template <typename T>
-Lanes<T> dot(const Vectors<T>& a, const Vectors<T>& b) {
-    Lanes<T> sum = {};
-    for (std::int64_t d = 0; d < axes; ++d) sum += a[d] * b[d];
-    return sum;
 }
 
 /// From rows `step` apart, `here` numbers of each.
@@ -108,66 +91,24 @@ struct UnitFinish {
     }
 };
 
-/// Vectors and their directions, v / max(|v|, shortest).
-template <typename T>
-struct Directions {
-    Vectors<T> unit;
-    Lanes<T> over, pulled;  ///< 1 / max(|v|, shortest); 1 where |v| counts, else 0
-
-    explicit Directions(const Vectors<T>& v) {
-        const Lanes<T> least = Lanes<T>{} + static_cast<T>(shortest), one = Lanes<T>{} + 1, none = {};
-        const auto length = root(dot(v, v));
-        pulled = length > least ? one : none;
-        over = 1 / (length > least ? length : least);
-        for (std::int64_t d = 0; d < axes; ++d) unit[d] = v[d] * over;
-    }
-
-    /// The vectors' gradient from the directions': (g - unit (unit . g)) / |v|.
-    Vectors<T> backward(const Vectors<T>& g) const {
-        const auto along = dot(unit, g) * pulled;
-        Vectors<T> out;
-        for (std::int64_t d = 0; d < axes; ++d) out[d] = (g[d] - unit[d] * along) * over;
-        return out;
-    }
-};
-
-/// The first two rows of rotations: of a and b = tanh(raw) the direction of a, and that of b - (a . b) a / |a|^2 (Gram and
-/// Schmidt).
+/// The first two rows of rotations, of a and b = tanh(raw).
 template <typename T>
 struct OrthonormalFinish {
     static constexpr std::int64_t numbers = 2 * axes;
 
-    static Vectors<T> rest_of(const Vectors<T>& b, const Vectors<T>& first) {
-        const auto along = dot(first, b);
-        Vectors<T> rest;
-        for (std::int64_t d = 0; d < axes; ++d) rest[d] = b[d] - along * first[d];
-        return rest;
-    }
-
     static void forward(const T* raw, std::int64_t nodes, T* motion, std::int64_t step, std::int64_t here) {
-        const Directions<T> first(bent(raw, nodes, here));
-        const Directions<T> second(rest_of(bent(raw + axes * nodes, nodes, here), first.unit));
-        store_vectors(first.unit, motion, step, here);
-        store_vectors(second.unit, motion + axes * step, step, here);
+        const Orthonormal<T> rows(bent(raw, nodes, here), bent(raw + axes * nodes, nodes, here));
+        store_vectors(rows.first(), motion, step, here);
+        store_vectors(rows.second(), motion + axes * step, step, here);
     }
 
-    /// With r = b - (f . b) f: db = dr - f (f . dr), and df = dy1 - (f . b) dr - b (f . dr).
     static void backward(const T* raw, std::int64_t nodes, const T* grad, std::int64_t step, T* to,
                          std::int64_t here) {
         const auto a = bent(raw, nodes, here), b = bent(raw + axes * nodes, nodes, here);
-        const Directions<T> first(a);
-        const auto& f = first.unit;
-        const auto to_rest =
-            Directions<T>(rest_of(b, f)).backward(load_vectors(grad + axes * step, step, here));
-        const auto along = dot(f, b), back = dot(f, to_rest);
-        auto to_first = load_vectors(grad, step, here);
-        Vectors<T> to_b;
-        for (std::int64_t d = 0; d < axes; ++d) {
-            to_b[d] = to_rest[d] - f[d] * back;
-            to_first[d] -= along * to_rest[d] + b[d] * back;
-        }
-        store_vectors(unbent(a, first.backward(to_first)), to, nodes, here);
-        store_vectors(unbent(b, to_b), to + axes * nodes, nodes, here);
+        const auto back = Orthonormal<T>(a, b).backward(load_vectors(grad, step, here),
+                                                        load_vectors(grad + axes * step, step, here));
+        store_vectors(unbent(a, back.a), to, nodes, here);
+        store_vectors(unbent(b, back.b), to + axes * nodes, nodes, here);
     }
 };
 

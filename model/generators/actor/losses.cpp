@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "model/generators/finish.hpp"
+#include "model/nn/fused_joints.hpp"
 
 namespace actformer::model {
 namespace {
@@ -46,6 +47,12 @@ RestJoints::RestJoints(const ingest::Topology& topology, const std::vector<float
                 {numbers_of(level), numbers_of(parents), offsets.index_select(0, numbers_of(level))});
     }
     place_ = numbers_of(place);
+    skeleton_.order.resize(joints);
+    for (std::size_t j = 0; j < joints; ++j) {
+        skeleton_.order[static_cast<std::size_t>(place[j])] = static_cast<int>(j);
+        skeleton_.parents.push_back(topology.parents[j]);
+        skeleton_.offsets.push_back({rest[3 * j], rest[3 * j + 1], rest[3 * j + 2]});
+    }
 }
 
 at::Tensor RestJoints::positions(const at::Tensor& rotations) const {
@@ -66,6 +73,21 @@ at::Tensor RestJoints::positions(const at::Tensor& rotations) const {
     return at::cat(all, 1).index_select(1, to(place_));
 }
 
+/// The last node is the translation.
+at::Tensor RestJoints::positions_of_all(const at::Tensor& motion) const {
+    constexpr std::int64_t numbers = 6;
+    const auto n = motion.size(0), t = motion.size(2), k = motion.size(3);
+    const auto by_person = motion.reshape({n, -1, numbers, t, k}).permute({0, 3, 1, 4, 2}).flatten(0, 2);
+    return positions(by_person.slice(1, 0, k - 1));
+}
+
+at::Tensor RestJoints::error(const at::Tensor& made, const at::Tensor& real) const {
+    const bool here = made.is_cpu() && made.scalar_type() == real.scalar_type() &&
+                      (made.scalar_type() == at::kFloat || made.scalar_type() == at::kDouble);
+    if (here) return fused_joint_error(skeleton_, made, real);
+    return (positions_of_all(made) - positions_of_all(real)).square().mean();
+}
+
 ActorLosses actor_losses(const at::Tensor& real, const at::Tensor& made, const ActorNet::Latent& latent,
                          double kl_factor, const RestJoints* joints) {
     ActorLosses losses;
@@ -73,13 +95,7 @@ ActorLosses actor_losses(const at::Tensor& real, const at::Tensor& made, const A
     losses.kl = -0.5 * (1 + latent.log_variance - latent.mean.square() - latent.log_variance.exp()).sum();
     losses.total = losses.rc + kl_factor * losses.kl;
     if (!joints) return losses;
-    constexpr std::int64_t numbers = 6;
-    const auto turned = [&](const at::Tensor& motion) {  // the last node is the translation
-        const auto n = motion.size(0), t = motion.size(2), k = motion.size(3);
-        const auto by_person = motion.reshape({n, -1, numbers, t, k}).permute({0, 3, 1, 4, 2}).flatten(0, 2);
-        return joints->positions(by_person.slice(1, 0, k - 1));
-    };
-    losses.rcxyz = (turned(made) - turned(real)).square().mean();
+    losses.rcxyz = joints->error(made, real);
     losses.total = losses.total + losses.rcxyz;
     return losses;
 }

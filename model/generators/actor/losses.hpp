@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "model/cpu/turned_joints.hpp"
 #include "model/generators/actor/network.hpp"
 
 namespace actformer::model {
@@ -18,7 +19,13 @@ class RestJoints {
     /// rotations (M, joints, 6) below each joint's parent, first two rows, of any length -> positions (M, joints, 3) from the root.
     at::Tensor positions(const at::Tensor& rotations) const;
 
+    /// The mean squared difference between the positions of two motions' joints, (N, P*6, T, K) both, all persons together. On the CPU
+    /// by a kernel of our own.
+    at::Tensor error(const at::Tensor& made, const at::Tensor& real) const;
+
   private:
+    at::Tensor positions_of_all(const at::Tensor& motion) const;
+
     /// Joints as far from the root as each other.
     struct Level {
         at::Tensor joints, parents;  ///< (n) int64; parents are counted within the level before
@@ -26,6 +33,7 @@ class RestJoints {
     };
     std::vector<Level> levels_;
     at::Tensor place_;  ///< (joints) of a joint among all levels'
+    cpu::RestSkeleton skeleton_;
 };
 
 struct ActorLosses {

@@ -1,0 +1,28 @@
+// Joints of a rest skeleton, turned by rotations, and how far two motions' joints lie apart. T float or double.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace actformer::model::cpu {
+
+struct RestSkeleton {
+    std::vector<int> order;    ///< joints, each behind its parent; the root first
+    std::vector<int> parents;  ///< (joints); -1 for the root
+    std::vector<std::array<float, 3>>
+        offsets;  ///< (joints) from the parent, unturned; the root's is not used
+};
+
+/// Of motions (samples, persons * 6, frames, joints + 1): the first two rows of each joint's rotation below its parent, of any length;
+/// the last node, the translation, is not looked at.
+struct RotationsShape {
+    std::int64_t samples, persons, frames;
+};
+
+/// The sum of squared differences between the positions, from the root, of both motions' joints. `to` gets its gradient to `made`.
+template <typename T>
+double joint_differences(const RestSkeleton& skeleton, const RotationsShape& shape, const T* made,
+                         const T* real, T* to, int threads);
+
+}  // namespace actformer::model::cpu
