@@ -40,3 +40,23 @@ TEST(BenchTrain, RefusesAFolderWithoutThePeer) {
     expect_refused(run_actformer("bench train --frames 16 --batch 1 --rounds 1 --peers /nowhere"),
                    {"/nowhere", "actformer_speed.py", "--peers"});
 }
+
+TEST(BenchTrain, OpenBlasUsesTheProcessorsVectorsUnlessToldOtherwise) {
+    if (!has_training()) GTEST_SKIP() << "this build has no libtorch";
+#if !defined(__x86_64__)
+    GTEST_SKIP() << "of processors other than these OpenBLAS knows what it needs";
+#else
+    if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "a processor without wide vectors";
+    const auto banner = [](const std::string& core) {
+        return run_command("env " + core + " " + program() +
+                           " bench train --persons 1 --classes 2 --frames 16 --batch 1 --rounds 1")
+            .output;
+    };
+    if (banner("OPENBLAS_CORETYPE=Haswell").find("OpenBLAS for Haswell") == std::string::npos)
+        GTEST_SKIP() << "libtorch's products are not OpenBLAS's";
+    EXPECT_EQ(banner("-u OPENBLAS_CORETYPE").find("OpenBLAS takes this processor for"), std::string::npos);
+    EXPECT_NE(banner("OPENBLAS_CORETYPE=Prescott").find("OpenBLAS takes this processor for a Prescott"),
+              std::string::npos)
+        << "the user's word counts";
+#endif
+}
