@@ -48,7 +48,9 @@ bool write_report(const ReportOptions& options) {
         if (!path.empty()) check_output(path);
     auto measured = reports::read_measured(options.folders);
     auto tables = reports::fill_tables(measured);
-    if (options.filled_only) std::erase_if(tables, [](const auto& table) { return !table.has_rows(); });
+    if (options.filled_only ||
+        std::ranges::all_of(measured.rows, [](const auto& row) { return row.fills.empty(); }))
+        std::erase_if(tables, [](const auto& table) { return !table.has_rows(); });
     const auto figures = measured_cells(tables);
     const reports::RowTables rows(measured);
     tables.insert(tables.end(), rows.filled().begin(), rows.filled().end());
@@ -71,7 +73,8 @@ void add_report(CLI::App& app) {
     auto options = std::make_shared<ReportOptions>();
     auto* command =
         app.add_subcommand("report", "Write the papers' tables, curves, scores and motions as one HTML file");
-    command->add_option("folders", options->folders, "Folders that `actformer sweep` wrote")->required();
+    command->add_option("folders", options->folders, "Folders that `actformer sweep`, or a training, wrote")
+        ->required();
     command->add_option("-o,--out", options->out, "The HTML file");
     command->add_option("--csv", options->csv, "The tables as comma-separated values, one line a figure");
     command->add_option("--latex", options->latex, "The tables for a paper");
@@ -82,7 +85,9 @@ void add_report(CLI::App& app) {
         ->check(CLI::Range(0.0, 1000.0))
         ->capture_default_str();
     const auto seconds = std::make_shared<unsigned>(0);
-    command->add_option("--watch", *seconds, "Write it anew every so many seconds until the sweeps are done")
+    command
+        ->add_option("--watch", *seconds,
+                     "Write it anew every so many seconds until sweeps and trainings are done")
         ->check(CLI::Range(1, 86400))
         ->type_name("SECONDS");
     command->add_flag("--json", options->json, "Print the tables as JSON");
@@ -90,6 +95,7 @@ void add_report(CLI::App& app) {
              "  actformer report out/mini -o report.html\n"
              "  actformer report out/table3 out/table4 -o report.html --csv tables.csv --latex tables.tex\n"
              "  actformer report out/mini -o report.html --watch 60\n"
+             "  actformer report my-training -o curves.html --watch 10\n"
              "  actformer report out/mini --json");
     command->callback([options, seconds] {
         if (options->out.empty() && options->csv.empty() && options->latex.empty() && !options->json)

@@ -8,12 +8,13 @@
 namespace actformer::cli {
 
 struct ReportOptions {
-    std::vector<std::filesystem::path> folders;   ///< of sweeps
+    std::vector<std::filesystem::path> folders;   ///< of sweeps and trainings
     std::filesystem::path out{}, csv{}, latex{};  ///< empty: not written
     std::string title = "ActFormer, measured";
     double motion_megabytes = 12;
     bool json = false;
-    bool filled_only = false;  ///< leave out tables that nothing was run for
+    bool filled_only =
+        false;  ///< leave out tables that nothing was run for; they are where no row is for any
 };
 
 /// Says on standard error what it wrote and what is missing. Whether rows are still to be measured. Throws Error for folders without

@@ -225,7 +225,8 @@ class Details {
         const auto& scored = run ? run->scored : none;
         const auto classes = classes_of(scored);
         add_scores(out, scored, classes);
-        out["curves"] = run ? curves(*run) : Json{{"generator", nullptr}, {"recogniser", nullptr}};
+        const auto* trained = row.trained();
+        out["curves"] = trained ? curves(*trained) : Json{{"generator", nullptr}, {"recogniser", nullptr}};
         out["projection"] = out["points"] = out["motions"] = nullptr;
         if (!run) return out;
         attempt(row, "features", [&] { add_points(out, row, *run, classes); });

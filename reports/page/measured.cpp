@@ -7,6 +7,7 @@
 #include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/text/loose_json.hpp"
+#include "reports/page/training.hpp"
 #include "reports/tables/own_tables.hpp"
 
 namespace actformer::reports {
@@ -37,8 +38,10 @@ void add_own_tables(std::vector<PaperTable>& tables, const Json& results, const 
 Json read_results(const fs::path& folder) {
     const auto path = folder / "results.json";
     if (!fs::is_regular_file(path))
-        throw Error("{}: no results.json in it; give the folder that `actformer sweep FILE -o FOLDER` wrote",
-                    folder.string());
+        throw Error(
+            "{}: no results.json in it; give the folder that `actformer sweep FILE -o FOLDER` or a training "
+            "wrote",
+            folder.string());
     auto json = loose::read(path);
     if (!loose::member(json, "rows").is_array() || own_checksum_of(json) == OwnChecksum::wrong)
         throw Error("{}: damaged, or not a sweep's results; `actformer sweep` again writes it anew",
@@ -143,9 +146,18 @@ const MeasuredRun* MeasuredRow::shown() const {
     return found == runs.end() ? nullptr : &*found;
 }
 
+const MeasuredRun* MeasuredRow::trained() const {
+    if (const auto* run = shown()) return run;
+    return runs.empty() ? nullptr : &runs.front();
+}
+
 Measured read_measured(const std::vector<fs::path>& folders) {
     Measured out;
     for (const auto& folder : folders) {
+        if (auto row = training_row(folder)) {
+            out.rows.push_back(std::move(*row));
+            continue;
+        }
         const auto json = read_results(folder);
         add_own_tables(out.tables, json, folder);
         for (const auto& row : objects(json, "rows"))

@@ -1,4 +1,4 @@
-// What sweeps have measured, read back from their folders (reports/sweep/results.hpp says how they lie there).
+// What sweeps and trainings have measured, read back from their folders (reports/sweep/results.hpp says how they lie there).
 #pragma once
 
 #include <cstdint>
@@ -32,6 +32,9 @@ struct MeasuredRow {
 
     /// The run that stands for the row where only one can be shown; null where none has scores.
     const MeasuredRun* shown() const;
+
+    /// The run whose curves stand for the row: shown()'s, else the first; null where there is none.
+    const MeasuredRun* trained() const;
 };
 
 struct Measured {
@@ -40,8 +43,8 @@ struct Measured {
     std::vector<PaperTable> tables = paper_tables();  ///< with the sweeps' own
 };
 
-/// Reads OUT/results.json of every folder and the scores that it names. Throws Error for a folder without results, and for results
-/// that are damaged or of another format, and for two tables of one name with other columns; scores that are missing or damaged become notices.
+/// Reads OUT/results.json of every folder and the scores that it names; the folder of a training is a row of its own. Throws Error for
+/// any other folder, and for results that are damaged or of another format, and for two tables of one name with other columns; scores that are missing or damaged become notices.
 Measured read_measured(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace actformer::reports

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/files/lock.hpp"
 #include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/motions_file.hpp"
@@ -140,6 +141,37 @@ TEST_F(ReportPage, StaysSmallHoweverManyMotions) {
     ASSERT_EQ(report("-o " + at("all.html")).exit, 0);
     ASSERT_EQ(report("-o " + at("few.html") + " --motion-megabytes 0.2").exit, 0);
     EXPECT_LT(fs::file_size(dir / "few.html") + 300'000, fs::file_size(dir / "all.html"));
+}
+
+TEST_F(ReportPage, ShowsTheCurvesOfATrainingThatGoesOn) {
+    const auto training = dir / "mine";
+    write_file(training / "config.yaml", "model: actor\nframes: 60  # frames a window\n");
+    write_file(training / "log.jsonl",
+               "{\"epoch\":1,\"loss\":2.5}\n{\"epoch\":2,\"loss\":1.25}\n{\"epoch\":2,\"accuracy\":0.5}\n");
+    const auto page = [&] {
+        const auto result = run_actformer("report " + at("mine") + "/ -o " + at("r.html"));
+        EXPECT_EQ(result.exit, 0) << result.output;
+        const auto html = read_file(dir / "r.html");
+        EXPECT_EQ(html.find("Table 1"), std::string::npos) << "no table of the paper was asked for";
+        const std::string begin = "id=\"data\">";
+        const auto from = html.find(begin);
+        return nlohmann::json::parse(
+            html.substr(from + begin.size(), html.find("</script>", from) - from - begin.size()));
+    };
+    {
+        const auto held = FileLock::if_free(training / "lock");
+        EXPECT_EQ(page()["rows"][0]["status"], "waiting");
+    }
+    const auto row = page()["rows"][0];
+    EXPECT_EQ(row["name"], "mine");
+    EXPECT_EQ(row["status"], "done");
+    const auto& curves = row["curves"]["generator"];
+    EXPECT_EQ(curves["points"],
+              nlohmann::json::parse(R"([{"epoch":1,"loss":2.5},{"epoch":2,"loss":1.25,"accuracy":50.0}])"));
+    EXPECT_EQ(curves["charts"].size(), 2);
+    EXPECT_TRUE(row["curves"]["recogniser"]["charts"].empty());
+    write_file(training / "config.yaml", "model: gru\n");
+    EXPECT_EQ(page()["rows"][0]["curves"]["recogniser"]["charts"].size(), 2);
 }
 
 TEST_F(ReportPage, RefusesWhatIsNoSweepAndSaysWhy) {

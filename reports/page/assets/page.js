@@ -25,8 +25,9 @@ const STATES = { failed: "This run failed", waiting: "This run is not finished" 
 function showRun() {
   const run = row();
   byId("run-name").textContent = run.name;
-  byId("fills").textContent = (run.fills?.length ? `Fills ${run.fills.join("; ")}.` : "Fills no cell of the tables.") +
-    (run.sweep ? ` Sweep ${run.sweep}.` : "");
+  byId("fills").textContent = run.sweep
+    ? `${run.fills?.length ? `Fills ${run.fills.join("; ")}.` : "Fills no cell of the tables."} Sweep ${run.sweep}.`
+    : "A training by itself: its curves, and no scores.";
   byId("scores").replaceChildren(...(run.scores ?? []).map(scoreItem));
   const state = STATES[run.status];
   byId("warnings").replaceChildren(
@@ -181,6 +182,8 @@ byId("title").textContent = document.title;
 byId("footer").textContent = `Written by actformer ${report.version}.`;
 if (report.rows.length) {
   byId("panels").hidden = false;
+  for (const scored of ["motions", "classes", "confusion", "projection"])
+    byId(scored).hidden = report.rows.every((r) => !r.sweep);  // trainings alone
   byId("run").replaceChildren(...report.rows.map((r, i) =>
     option(String(i), r.status === "done" ? r.name : `${r.name} (${r.status === "failed" ? "failed" : "not finished"})`)));
   offerOrders();
