@@ -15,6 +15,7 @@
 #include "base/process/signal_mask.hpp"
 #include "cli/command_tree.hpp"
 #include "cli/completion.hpp"
+#include "cli/least_processor.hpp"
 #include "cli/man_pages.hpp"
 #include "cli/program.hpp"
 
@@ -124,6 +125,7 @@ void group_commands(CLI::App& app) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    actformer::cli::expect_least_processor();
     if (asks_for_bench_train(argc, argv)) return become(bench_train, argv);
     if (asks_to_score_a_generator(argc, argv)) return become(score_generator, argv);
     for (const auto& sub : subprograms)

@@ -1,24 +1,41 @@
-// A program that is a library beside it, PROGRAM.so, opened so that nobody else sees what it and its own libraries export.
+// A program that is a library, PROGRAM.so, opened so that nobody else sees what it and its own libraries export. Beside it may lie
+// builds of that library for newer processors, x86-64-v3/PROGRAM.so say: the best that this processor can run is opened, or the one that
+// ACTFORMER_ISA names.
 #include <dlfcn.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <system_error>
 
+#include "base/process/processor_level.hpp"
+
+using actformer::processor_levels, actformer::runs_here;
+
 namespace {
 
-/// The OpenBLAS core with this processor's vectors; null where there are none to speak of.
-const char* core_by_vectors() {
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw") &&
-        __builtin_cpu_supports("avx512dq"))
-        return "SkylakeX";
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
-#endif
-    return nullptr;
+[[noreturn]] void fail(const std::string& why) {
+    std::fprintf(stderr, "actformer: %s\n", why.c_str());
+    std::exit(1);
+}
+
+/// Of the builds beside `program`, the one to open.
+std::string library_of(const std::filesystem::path& program) {
+    const auto name = program.filename().string() + ".so";
+    const auto least = (program.parent_path() / name).string();
+    const char* const asked = std::getenv("ACTFORMER_ISA");
+    for (const auto& level : processor_levels()) {
+        if (asked ? asked != level.name : !level.runs) continue;
+        if (!level.runs) fail("ACTFORMER_ISA=" + std::string(asked) + ": this processor cannot run that");
+        if (level.march == ACTFORMER_LEAST) return least;
+        const auto built = program.parent_path() / level.march / name;
+        if (std::filesystem::exists(built)) return built.string();
+    }
+    if (asked) fail("ACTFORMER_ISA=" + std::string(asked) + ": there is no such build here; leave it out");
+    return least;
 }
 
 /// OpenBLAS takes a processor newer than itself for one of 2004, and multiplies at a fraction of its speed. What it shall take it for
@@ -27,21 +44,25 @@ void start_again_with_vectors(const char* program, char** argv) {
     void* const blas = ::dlopen("libblas.so.3", RTLD_LAZY | RTLD_LOCAL);  // as libtorch will
     using Name = char*();
     auto* const name = blas ? reinterpret_cast<Name*>(::dlsym(blas, "openblas_get_corename")) : nullptr;
-    const auto* const better = core_by_vectors();
-    if (!name || !better) return;
-    const std::string_view core = name();
+    const std::string_view core = name ? name() : "";
     if (core != "Prescott" && core != "Nehalem") return;
-    if (::setenv("OPENBLAS_CORETYPE", better, 0) == 0) ::execv(program, argv);
+    for (const auto& level : processor_levels())
+        if (level.runs && core != level.openblas) {
+            if (::setenv("OPENBLAS_CORETYPE", level.openblas, 0) == 0) ::execv(program, argv);
+            return;
+        }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    if (!runs_here(ACTFORMER_LEAST))
+        fail("this processor is older than " ACTFORMER_LEAST
+             ", which the program was built for; build it from its sources");
     std::error_code unread;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", unread).string();
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", unread);
     if (!std::getenv("OPENBLAS_CORETYPE")) start_again_with_vectors(program.c_str(), argv);
-    const auto rest = program + ".so";
-    void* const library = ::dlopen(rest.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* const library = ::dlopen(library_of(program).c_str(), RTLD_NOW | RTLD_LOCAL);
     using Main = int(int, char**);
     auto* const main_of_it = library ? reinterpret_cast<Main*>(::dlsym(library, "main")) : nullptr;
     if (main_of_it) return main_of_it(argc, argv);
