@@ -17,6 +17,8 @@ using actformer::processor_levels, actformer::runs_here;
 
 namespace {
 
+constexpr const char* least_march = ACTFORMER_LEAST;
+
 [[noreturn]] void fail(const std::string& why) {
     std::fprintf(stderr, "actformer: %s\n", why.c_str());
     std::exit(1);
@@ -30,7 +32,7 @@ std::string library_of(const std::filesystem::path& program) {
     for (const auto& level : processor_levels()) {
         if (asked ? asked != level.name : !level.runs) continue;
         if (!level.runs) fail("ACTFORMER_ISA=" + std::string(asked) + ": this processor cannot run that");
-        if (level.march == ACTFORMER_LEAST) return least;
+        if (level.march == least_march) return least;
         const auto built = program.parent_path() / level.march / name;
         if (std::filesystem::exists(built)) return built.string();
     }
@@ -56,7 +58,7 @@ void start_again_with_vectors(const char* program, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (!runs_here(ACTFORMER_LEAST))
+    if (!runs_here(least_march))
         fail("this processor is older than " ACTFORMER_LEAST
              ", which the program was built for; build it from its sources");
     std::error_code unread;
