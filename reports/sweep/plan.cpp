@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
@@ -105,7 +107,10 @@ class Planner {
     /// The contents that a file has now are part of the fingerprint.
     std::string with_contents(const std::string& path, Job& job) {
         const auto at = found(path, job);
-        if (fs::is_regular_file(at)) contents_ += "|" + checksum_file(at);
+        if (fs::is_regular_file(at)) {
+            contents_ += "|" + checksum_file(at);
+            read_.insert(at);
+        }
         return at;
     }
 
@@ -124,7 +129,9 @@ class Planner {
         Checksum sum;
         sum.add(fmt::format("{}|{}|{}", job.kind, ACTFORMER_VERSION, contents_));
         contents_.clear();
-        for (const auto& word : runner_.identity(job.work)) sum.add("|" + word);
+        const auto read = std::exchange(read_, {});
+        for (const auto& word : runner_.identity(job.work))  // a file with known contents may lie anywhere
+            sum.add("|" + (read.contains(word) ? fs::path(word).filename().string() : word));
         job.id = job.kind + "-" + sum.hex().substr(0, fingerprint_digits);
         for (std::size_t i = 0; i < plan_.jobs.size(); ++i)
             if (plan_.jobs[i].id == job.id) return i;
@@ -140,7 +147,10 @@ class Planner {
 
     /// To be called right before the job is added, as the contents become part of its fingerprint.
     void need(Job& job, const Made& made) {
-        if (!made.contents.empty()) contents_ += "|" + made.contents;
+        if (!made.contents.empty()) {
+            contents_ += "|" + made.contents;
+            read_.insert(made.path);
+        }
         if (!made.job) return;
         if (std::find(job.needs.begin(), job.needs.end(), *made.job) == job.needs.end())
             job.needs.push_back(*made.job);
@@ -286,7 +296,8 @@ class Planner {
     const Sweep& sweep_;
     fs::path beside_;
     const JobRunner& runner_;
-    std::string contents_;
+    std::string contents_;        ///< checksums of the files that the next job reads
+    std::set<std::string> read_;  ///< their paths
     Plan plan_;
 };
 

@@ -192,6 +192,21 @@ TEST_F(Sweep, PrintsItsPlanAndChangesNothing) {
     EXPECT_NE(status.output.find("2 of 2 rows done"), std::string::npos) << status.output;
 }
 
+TEST_F(Sweep, GoesOnWhereverItsConfigurationsLie) {
+    sweep_file(two_rows);
+    ASSERT_EQ(sweep().exit, 0);
+    fs::create_directory(dir / "moved");
+    for (const auto* name : {"r.yaml", "g.yaml"}) fs::rename(dir / name, dir / "moved" / name);
+    const auto before = read_file(dir / "sweep.yaml");
+    write_file(dir / "sweep.yaml",
+               replaced(replaced(before, ": r.yaml", ": moved/r.yaml"), ": g.yaml", ": moved/g.yaml"));
+    const auto moved = sweep("--dry-run");
+    EXPECT_NE(moved.output.find("0 of 8 jobs to do"), std::string::npos) << moved.output;
+    write_file(dir / "moved/g.yaml", read_file(dir / "moved/g.yaml") + "# another\n");
+    const auto changed = sweep("--dry-run");
+    EXPECT_EQ(changed.output.find("0 of 8 jobs to do"), std::string::npos) << changed.output;
+}
+
 TEST_F(Sweep, MayHaveTablesOfItsOwn) {
     write_file(dir / "mine.h5", "motions");
     sweep_file(
@@ -324,7 +339,7 @@ TEST(SweepFiles, AreSound) {
                                         entry.path().string() + " -o /nonexistent/out --dry-run");
         EXPECT_EQ(result.exit, 0) << result.output;
     }
-    EXPECT_EQ(files, 7U);
+    EXPECT_EQ(files, 9U);
 }
 
 TEST(RealSweep, GoesFromADatasetToScores) {
