@@ -39,6 +39,9 @@ struct JointError : Function<JointError> {
 
 at::Tensor fused_joint_error(const cpu::RestSkeleton& skeleton, const at::Tensor& made,
                              const at::Tensor& real) {
+    TORCH_CHECK(made.sizes() == real.sizes() && made.dim() == 4 && made.size(1) % 6 == 0 &&
+                    made.size(3) == static_cast<std::int64_t>(skeleton.parents.size()) + 1,
+                "rotations of another skeleton: ", made.sizes(), " and ", real.sizes());
     return JointError::apply(made.contiguous(), real.contiguous(), &skeleton);
 }
 

@@ -43,9 +43,15 @@ std::optional<ChartOf> chart_of(const std::string& key) {
 
 }  // namespace
 
+bool has_log(const std::filesystem::path& run) {
+    std::error_code unread;
+    return std::filesystem::is_regular_file(run / "log.jsonl", unread);
+}
+
 nlohmann::ordered_json read_curves(const std::filesystem::path& run) {
     constexpr std::size_t most = 500;
     std::map<std::uint64_t, Json> epochs;
+    if (run.empty() || !has_log(run)) return Json::array();
     std::ifstream log(run / "log.jsonl");
     for (std::string line; std::getline(log, line);) {
         const auto said = json_or_discarded<Json>(line);

@@ -7,8 +7,11 @@
 
 namespace actformer::reports {
 
+/// Whether a training has written a log there.
+bool has_log(const std::filesystem::path& run);
+
 /// The numbers that a training's log.jsonl says of its epochs: one object an epoch, lines of the same epoch joined; at most 500,
-/// evenly chosen, the last among them. Empty where there is no log; lines that cannot be read are passed over.
+/// evenly chosen, the last among them. Empty where there is no log, or `run` is empty; lines that cannot be read are passed over.
 nlohmann::ordered_json read_curves(const std::filesystem::path& run);
 
 /// The charts that epochs give, whatever was trained: {"points": epochs, "charts": [{"title", "unit", "from_zero", "series": [{"key",

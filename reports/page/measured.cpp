@@ -7,6 +7,7 @@
 #include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/text/loose_json.hpp"
+#include "reports/page/curves.hpp"
 #include "reports/page/training.hpp"
 #include "reports/tables/own_tables.hpp"
 
@@ -138,6 +139,18 @@ MeasuredRow read_row(const Json& json, const std::string& sweep, const fs::path&
     return row;
 }
 
+/// Once, and under its path where another row has its name.
+void add_training(MeasuredRow row, const fs::path& folder, std::vector<MeasuredRow>& rows) {
+    const auto here = [](const MeasuredRow& one) {
+        return std::pair(one.runs[0].run, one.runs[0].recogniser);
+    };
+    for (const auto& one : rows)
+        if (one.sweep.empty() && here(one) == here(row)) return;
+    if (std::ranges::any_of(rows, [&](const auto& one) { return one.name == row.name; }))
+        row.name = fs::weakly_canonical(folder).string();
+    rows.push_back(std::move(row));
+}
+
 }  // namespace
 
 const MeasuredRun* MeasuredRow::shown() const {
@@ -148,6 +161,9 @@ const MeasuredRun* MeasuredRow::shown() const {
 
 const MeasuredRun* MeasuredRow::trained() const {
     if (const auto* run = shown()) return run;
+    const auto found = std::ranges::find_if(
+        runs, [](const MeasuredRun& run) { return !run.run.empty() && has_log(run.run); });
+    if (found != runs.end()) return &*found;
     return runs.empty() ? nullptr : &runs.front();
 }
 
@@ -155,7 +171,7 @@ Measured read_measured(const std::vector<fs::path>& folders) {
     Measured out;
     for (const auto& folder : folders) {
         if (auto row = training_row(folder)) {
-            out.rows.push_back(std::move(*row));
+            add_training(std::move(*row), folder, out.rows);
             continue;
         }
         const auto json = read_results(folder);

@@ -15,7 +15,8 @@ namespace actformer::reports {
 /// One seed of a row. Whole paths; empty where the sweep names none. What they name may have gone since.
 struct MeasuredRun {
     std::uint64_t seed = 0;
-    std::string status, why;  ///< "done", "failed", "running" or "waiting"; why of a failure
+    std::string status,
+        why;  ///< "done", "failed", "running", "waiting" or, of a training by itself, "stopped"; why of a failure
     std::filesystem::path scores, features, motions, run, recogniser, dataset;
     nlohmann::ordered_json
         scored;  ///< what `actformer score` wrote; null unless the run is done and it can be read
@@ -33,7 +34,7 @@ struct MeasuredRow {
     /// The run that stands for the row where only one can be shown; null where none has scores.
     const MeasuredRun* shown() const;
 
-    /// The run whose curves stand for the row: shown()'s, else the first; null where there is none.
+    /// The run whose curves stand for the row: shown()'s, else the first with a log, else the first; null where there is none.
     const MeasuredRun* trained() const;
 };
 

@@ -170,8 +170,33 @@ TEST_F(ReportPage, ShowsTheCurvesOfATrainingThatGoesOn) {
               nlohmann::json::parse(R"([{"epoch":1,"loss":2.5},{"epoch":2,"loss":1.25,"accuracy":50.0}])"));
     EXPECT_EQ(curves["charts"].size(), 2);
     EXPECT_TRUE(row["curves"]["recogniser"]["charts"].empty());
-    write_file(training / "config.yaml", "model: gru\n");
-    EXPECT_EQ(page()["rows"][0]["curves"]["recogniser"]["charts"].size(), 2);
+    write_file(training / "config.yaml", "model: gru\nepochs: 5  # of as many windows as there are clips\n");
+    const auto stopped = page()["rows"][0];
+    EXPECT_EQ(stopped["curves"]["recogniser"]["charts"].size(), 2);
+    EXPECT_EQ(stopped["status"], "stopped");
+    EXPECT_NE(stopped["why"].get<std::string>().find("epoch 2 of 5"), std::string::npos) << stopped["why"];
+}
+
+TEST_F(ReportPage, KnowsATrainingBeforeItsFirstEpochAndWhateverItIsCalled) {
+    for (const auto* name : {"a/run", "b/run"}) write_file(dir / name / "config.yaml", "model: csgn\n");
+    expect_refused(run_actformer("report " + at("a/run") + " -o " + at("r.html")), {"a/run", "a training"});
+    const auto held = FileLock::if_free(dir / "a/run/lock"), other = FileLock::if_free(dir / "b/run/lock");
+    const auto result = run_command("cd " + at("a/run") + " && " + program() +
+                                    " report . ../run ../../b/run -o " + at("r.html"));
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("in 2 rows"), std::string::npos)
+        << "one of them was given twice: " << result.output;
+    const auto html = read_file(dir / "r.html");
+    EXPECT_NE(html.find("\"name\":\"run\""), std::string::npos);
+    EXPECT_NE(html.find("b/run\""), std::string::npos) << "a name that is taken becomes the path";
+}
+
+TEST_F(ReportPage, CurvesAreOfTheTrainingAndNotOfTheFolderThatOneIsIn) {
+    write_file(dir / "here/log.jsonl", "{\"epoch\":1,\"loss\":123.25}\n");
+    const auto result = run_command("cd " + at("here") + " && " + program() + " report " + swept().at("out") +
+                                    " -o " + at("r.html"));
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_EQ(read_file(dir / "r.html").find("123.25"), std::string::npos);
 }
 
 TEST_F(ReportPage, RefusesWhatIsNoSweepAndSaysWhy) {

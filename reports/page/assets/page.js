@@ -20,7 +20,7 @@ function scoreItem({ heading, unit, value, real, floor }) {
     html("small", {}, data.present(against) ? `${name} ${withUnit(against, unit)}` : "")));
 }
 
-const STATES = { failed: "This run failed", waiting: "This run is not finished" };
+const STATES = { failed: "This run failed", waiting: "This run is not finished", stopped: "This training stopped" };
 
 function showRun() {
   const run = row();
@@ -182,8 +182,10 @@ byId("title").textContent = document.title;
 byId("footer").textContent = `Written by actformer ${report.version}.`;
 if (report.rows.length) {
   byId("panels").hidden = false;
-  for (const scored of ["motions", "classes", "confusion", "projection"])
-    byId(scored).hidden = report.rows.every((r) => !r.sweep);  // trainings alone
+  if (report.rows.every((r) => !r.sweep)) {  // trainings alone: nothing was scored
+    const panels = ["motions", "classes", "confusion", "projection"].map((name) => `#${name}, nav a[href="#${name}"]`);
+    for (const part of document.querySelectorAll([".nav-group, .legend, .note, .skip", ...panels].join())) part.hidden = true;
+  }
   byId("run").replaceChildren(...report.rows.map((r, i) =>
     option(String(i), r.status === "done" ? r.name : `${r.name} (${r.status === "failed" ? "failed" : "not finished"})`)));
   offerOrders();
