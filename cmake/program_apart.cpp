@@ -24,17 +24,26 @@ constexpr const char* least_march = ACTFORMER_LEAST;
     std::exit(1);
 }
 
+/// Whether the program was built for this processor beside its own.
+bool has_build_for(std::string_view march) {
+    const std::string_view all = ";" ACTFORMER_LEVELS ";";
+    return all.find(';' + std::string(march) + ';') != std::string_view::npos;
+}
+
 /// Of the builds beside `program`, the one to open.
 std::string library_of(const std::filesystem::path& program) {
     const auto name = program.filename().string() + ".so";
     const auto least = (program.parent_path() / name).string();
-    const char* const asked = std::getenv("ACTFORMER_ISA");
+    const char* asked = std::getenv("ACTFORMER_ISA");
+    if (asked && !*asked) asked = nullptr;
     for (const auto& level : processor_levels()) {
         if (asked ? asked != level.name : !level.runs) continue;
         if (!level.runs) fail("ACTFORMER_ISA=" + std::string(asked) + ": this processor cannot run that");
         if (level.march == least_march) return least;
         const auto built = program.parent_path() / level.march / name;
-        if (std::filesystem::exists(built)) return built.string();
+        std::error_code unread;
+        if (has_build_for(level.march) && std::filesystem::is_regular_file(built, unread))
+            return built.string();
     }
     if (asked) fail("ACTFORMER_ISA=" + std::string(asked) + ": there is no such build here; leave it out");
     return least;

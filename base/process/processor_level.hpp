@@ -1,6 +1,10 @@
 // Levels of x86-64 as its ABI has them. Needs nothing of the project, and no instruction that an old processor has not.
 #pragma once
 
+#if defined(__x86_64__)
+#include <cpuid.h>
+#endif
+
 #include <array>
 #include <string_view>
 
@@ -12,14 +16,25 @@ struct ProcessorLevel {
     const char* openblas;          ///< what OpenBLAS calls a processor with its vectors
 };
 
+#if defined(__x86_64__)
+/// MOVBE, F16C and LZCNT, by the bits of CPUID that Intel's and AMD's manuals give them: not every compiler knows their names.
+inline bool has_movbe_f16c_lzcnt() {
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    const bool basic = __get_cpuid(1, &a, &b, &c, &d) != 0 && (c >> 22 & 1U) != 0 && (c >> 29 & 1U) != 0;
+    return basic && __get_cpuid(0x80000001U, &a, &b, &c, &d) != 0 && (c >> 5 & 1U) != 0;
+}
+#endif
+
 /// The best first.
 inline std::array<ProcessorLevel, 3> processor_levels() {
 #if defined(__x86_64__)
-    const bool v2 = __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
+    const bool v2 = __builtin_cpu_supports("ssse3") && __builtin_cpu_supports("sse4.2") &&
+                    __builtin_cpu_supports("popcnt");
     const bool v3 = v2 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                    __builtin_cpu_supports("bmi2");
-    const bool v4 = v3 && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
-                    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") && has_movbe_f16c_lzcnt();
+    const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                    __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512vl");
 #else
     const bool v2 = false, v3 = false, v4 = false;
 #endif
