@@ -5,7 +5,8 @@
 function(add_program_apart name)
   add_executable(${name} ${CMAKE_SOURCE_DIR}/cmake/program_apart.cpp)
   cmake_parse_arguments(PARSE_ARGV 1 apart "" "" LEVELS)
-  target_compile_definitions(${name} PRIVATE ACTFORMER_LEAST="${ACTFORMER_LEVEL}" "ACTFORMER_LEVELS=\"${apart_LEVELS}\"")
+  string(REPLACE ";" ":" levels "${apart_LEVELS}")
+  target_compile_definitions(${name} PRIVATE ACTFORMER_LEAST="${ACTFORMER_LEVEL}" ACTFORMER_LEVELS="${levels}")
   if(CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
     target_compile_options(${name} PRIVATE -march=x86-64)  # it says what a processor lacks
   endif()

@@ -26,8 +26,8 @@ constexpr const char* least_march = ACTFORMER_LEAST;
 
 /// Whether the program was built for this processor beside its own.
 bool has_build_for(std::string_view march) {
-    const std::string_view all = ";" ACTFORMER_LEVELS ";";
-    return all.find(';' + std::string(march) + ';') != std::string_view::npos;
+    const std::string_view all = ":" ACTFORMER_LEVELS ":";
+    return all.find(':' + std::string(march) + ':') != std::string_view::npos;
 }
 
 /// Of the builds beside `program`, the one to open.
