@@ -1,5 +1,7 @@
 #include "model/recognisers/learner.hpp"
 
+#include <ATen/CPUGeneratorImpl.h>
+
 #include "model/train/training.hpp"
 
 namespace actformer::model {
@@ -23,12 +25,21 @@ at::Tensor RecogniserLearner::values_of(const Windows& windows) const {
         .to(torch_type(settings_.precision));
 }
 
+/// The input's normalisation divides by deviations: of joints that no recording moves (those that a skeleton has and its recordings
+/// have not) it makes a hundredfold of any number that is not theirs. With noise it has deviations to divide by.
+at::Tensor RecogniserLearner::noisy(const at::Tensor& motion, std::uint64_t seed) const {
+    if (settings_.noise == 0) return motion;
+    auto random = at::make_generator<at::CPUGeneratorImpl>(step_seed(seed, 1));
+    const auto drawn = at::randn(motion.sizes(), random, at::TensorOptions(at::kFloat));
+    return motion + settings_.noise * drawn.to(motion.options());
+}
+
 void RecogniserLearner::step(std::uint64_t step, double rate_share) {
     rate_ = settings_.rate * rate_share;
     const auto windows = feed_.batch(step);
     const auto labels = labels_of(windows, device_);
     const auto seed = step_seed(settings_.seed, step);
-    const auto logits = network_->train_logits(augmentation_(values_of(windows), seed), seed);
+    const auto logits = network_->train_logits(noisy(augmentation_(values_of(windows), seed), seed), seed);
     const auto loss = at::cross_entropy_loss(logits, labels);
     loss.backward();
     network_->descend(rate_);

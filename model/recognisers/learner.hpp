@@ -31,6 +31,7 @@ class RecogniserLearner : public Learner {
 
   private:
     at::Tensor values_of(const Windows& windows) const;
+    at::Tensor noisy(const at::Tensor& motion, std::uint64_t seed) const;
 
     RecogniserSettings settings_;
     at::Device device_;

@@ -27,6 +27,17 @@ void add_network_keys(KeyTable<RecogniserSettings>& table) {
         .add(&Settings::frames, {.name = "frames", .meaning = "frames a window", .least = 4, .most = 4096});
 }
 
+template <typename Settings>
+void add_noise_key(KeyTable<Settings>& table) {
+    table.add(
+        &Settings::noise,
+        {.name = "noise",
+         .meaning = "deviation of what is added to all numbers to learn from, so that tremble nobody sees "
+                    "decides nothing; 0 as published",
+         .least = 0,
+         .most = 10});
+}
+
 void add_optimiser_keys(KeyTable<RecogniserSettings>& table) {
     using Settings = RecogniserSettings;
     table
@@ -53,6 +64,7 @@ const KeyTable<RecogniserSettings>& table() {
         keys.add(&RecogniserSettings::test_split,
                  {.name = "test_split", .meaning = "clips to score after every epoch; empty scores none"});
         add_augmentation_keys(keys);
+        add_noise_key(keys);
         add_trainer_keys(keys);
         return keys;
     }();
@@ -91,6 +103,7 @@ const KeyTable<GruPresets>& gru_table() {
             .add(&Settings::test_split,
                  {.name = "test_split", .meaning = "clips to score after every epoch; empty scores none"});
         add_augmentation_keys(keys);
+        add_noise_key(keys);
         add_trainer_keys(keys);
         return keys;
     }();

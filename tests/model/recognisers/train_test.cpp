@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -97,6 +98,22 @@ TEST_F(TrainRecogniser, GoesOnInFloat64ToTheSameBits) {
     ASSERT_EQ(train("halted", "precision=float64 epochs=2").exit, 0);
     EXPECT_EQ(read_file(dir / "whole/weights-last.h5"), read_file(dir / "halted/weights-last.h5"));
     expect_same_checkpoint(dir / "whole/checkpoint-00006.h5", dir / "halted/checkpoint-00006.h5");
+}
+
+TEST_F(TrainRecogniser, NoiseWidensWhatTheInputIsNormalisedBy) {
+    ASSERT_EQ(train("plain").exit, 0);
+    ASSERT_EQ(train("noisy", "noise=0.5").exit, 0);
+    ASSERT_EQ(train("halted", "noise=0.5 epochs=1").exit, 0);
+    ASSERT_EQ(train("halted", "noise=0.5").exit, 0);
+    EXPECT_EQ(read_file(dir / "noisy/weights-last.h5"), read_file(dir / "halted/weights-last.h5"));
+    const auto variances = [&](const char* run) {
+        return actformer::hdf5::Reader(dir / (std::string(run) + "/weights-last.h5")).read<float>("data_bn.running_var");
+    };
+    const auto plain = variances("plain"), noisy = variances("noisy");
+    ASSERT_EQ(plain.size(), noisy.size());
+    // Nine steps of momentum 0.1 come to 1 - 0.9^9 of the noise's variance, of some hundred numbers a channel and step.
+    for (std::size_t i = 0; i < plain.size(); ++i)
+        EXPECT_NEAR(noisy[i] - plain[i], 0.25 * (1 - std::pow(0.9, 9)), 0.06) << "channel " << i;
 }
 
 TEST_F(TrainRecogniser, GoesBackBehindATruncatedCheckpoint) {
