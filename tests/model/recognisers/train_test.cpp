@@ -107,7 +107,8 @@ TEST_F(TrainRecogniser, NoiseWidensWhatTheInputIsNormalisedBy) {
     ASSERT_EQ(train("halted", "noise=0.5").exit, 0);
     EXPECT_EQ(read_file(dir / "noisy/weights-last.h5"), read_file(dir / "halted/weights-last.h5"));
     const auto variances = [&](const char* run) {
-        return actformer::hdf5::Reader(dir / (std::string(run) + "/weights-last.h5")).read<float>("data_bn.running_var");
+        return actformer::hdf5::Reader(dir / (std::string(run) + "/weights-last.h5"))
+            .read<float>("data_bn.running_var");
     };
     const auto plain = variances("plain"), noisy = variances("noisy");
     ASSERT_EQ(plain.size(), noisy.size());
