@@ -13,7 +13,7 @@
 
 #include "base/process/processor_level.hpp"
 
-using actformer::processor_levels, actformer::runs_here;
+using actformer::processor_levels;
 
 namespace {
 
@@ -67,9 +67,7 @@ void start_again_with_vectors(const char* program, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (!runs_here(least_march))
-        fail("this processor is older than " ACTFORMER_LEAST
-             ", which the program was built for; build it from its sources");
+    actformer::expect_processor(least_march);
     std::error_code unread;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unread);
     if (!std::getenv("OPENBLAS_CORETYPE")) start_again_with_vectors(program.c_str(), argv);

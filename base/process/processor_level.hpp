@@ -6,6 +6,8 @@
 #endif
 
 #include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <string_view>
 
 namespace actformer {
@@ -43,11 +45,17 @@ inline std::array<ProcessorLevel, 3> processor_levels() {
              {"v2", "x86-64-v2", v2, "Nehalem"}}};
 }
 
-/// Whether this processor runs what was built for `march`; one that is no level is taken at its word.
-inline bool runs_here(std::string_view march) {
+/// Ends the program with a line where it was built for `march` and this processor is older; what is no level is taken at its word.
+inline void expect_processor(std::string_view march) {
     for (const auto& level : processor_levels())
-        if (level.march == march) return level.runs;
-    return true;
+        if (level.march == march && !level.runs) {
+            std::fprintf(
+                stderr,
+                "actformer: this processor is older than %s, which the program was built for; build it "
+                "from its sources\n",
+                level.march.data());
+            std::exit(1);
+        }
 }
 
 }  // namespace actformer
