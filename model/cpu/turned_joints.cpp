@@ -7,8 +7,6 @@
 namespace actformer::model::cpu {
 namespace {
 
-constexpr std::int64_t numbers = 6;
-
 /// What scratch memory is for.
 struct MadeRows {};
 struct RealRows {};
@@ -77,11 +75,11 @@ class Poses {
 
     /// From a motion's frames and back to them, `here` of them; `step` numbers lie between the six.
     void read(const T* motion, std::int64_t step, std::int64_t here) {
-        for (std::int64_t d = 0; d < numbers; ++d)
+        for (std::int64_t d = 0; d < rotation_numbers; ++d)
             transpose(motion + d * step, nodes_, here, nodes_, row(0, d), lanes<T>);
     }
     void write(T* motion, std::int64_t step, std::int64_t here) const {
-        for (std::int64_t d = 0; d < numbers; ++d)
+        for (std::int64_t d = 0; d < rotation_numbers; ++d)
             for (std::int64_t t = 0; t < here; ++t)
                 for (std::int64_t k = 0; k < nodes_; ++k)
                     motion[d * step + t * nodes_ + k] = row(static_cast<std::size_t>(k), d)[t];
@@ -173,7 +171,7 @@ double person_differences(const RestSkeleton& skeleton, std::int64_t frames, con
                           T* to) {
     const auto joints = skeleton.parents.size();
     const auto nodes = static_cast<std::int64_t>(joints) + 1, step = frames * nodes,
-               count = numbers * nodes * lanes<T>;
+               count = rotation_numbers * nodes * lanes<T>;
     Poses<T> poses(scratch<T>(MadeRows{}, count), nodes), wanted(scratch<T>(RealRows{}, count), nodes),
         gradients(zeroed_scratch<T>(ToRows{}, count), nodes);
     auto* turns = scratch<Turn<T>>(MadeTurns{}, static_cast<std::ptrdiff_t>(joints));
@@ -197,7 +195,8 @@ double person_differences(const RestSkeleton& skeleton, std::int64_t frames, con
 template <typename T>
 double joint_differences(const RestSkeleton& skeleton, const RotationsShape& shape, const T* made,
                          const T* real, T* to, int threads) {
-    const auto size = numbers * shape.frames * (static_cast<std::int64_t>(skeleton.parents.size()) + 1),
+    const auto size =
+                   rotation_numbers * shape.frames * (static_cast<std::int64_t>(skeleton.parents.size()) + 1),
                all = shape.samples * shape.persons;
     std::vector<double> sums(static_cast<std::size_t>(all));
 #pragma omp parallel for num_threads(threads) schedule(static)

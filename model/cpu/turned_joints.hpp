@@ -7,6 +7,8 @@
 
 namespace actformer::model::cpu {
 
+constexpr std::int64_t rotation_numbers = 6;  ///< two rows of a rotation
+
 struct RestSkeleton {
     std::vector<int> order;    ///< joints, each behind its parent; the root first
     std::vector<int> parents;  ///< (joints); -1 for the root

@@ -15,8 +15,7 @@ using torch::autograd::variable_list;
 struct JointError : Function<JointError> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& made, const at::Tensor& real,
                               const cpu::RestSkeleton* skeleton) {
-        const auto numbers = 6;
-        const cpu::RotationsShape shape{made.size(0), made.size(1) / numbers, made.size(2)};
+        const cpu::RotationsShape shape{made.size(0), made.size(1) / cpu::rotation_numbers, made.size(2)};
         auto gradient = at::empty_like(made);
         double sum = 0;
         timed("joints", false, made, [&](auto number) {
@@ -39,7 +38,8 @@ struct JointError : Function<JointError> {
 
 at::Tensor fused_joint_error(const cpu::RestSkeleton& skeleton, const at::Tensor& made,
                              const at::Tensor& real) {
-    TORCH_CHECK(made.sizes() == real.sizes() && made.dim() == 4 && made.size(1) % 6 == 0 &&
+    TORCH_CHECK(made.sizes() == real.sizes() && made.dim() == 4 &&
+                    made.size(1) % cpu::rotation_numbers == 0 &&
                     made.size(3) == static_cast<std::int64_t>(skeleton.parents.size()) + 1,
                 "rotations of another skeleton: ", made.sizes(), " and ", real.sizes());
     return JointError::apply(made.contiguous(), real.contiguous(), &skeleton);

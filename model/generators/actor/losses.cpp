@@ -75,9 +75,9 @@ at::Tensor RestJoints::positions(const at::Tensor& rotations) const {
 
 /// The last node is the translation.
 at::Tensor RestJoints::positions_of_all(const at::Tensor& motion) const {
-    constexpr std::int64_t numbers = 6;
     const auto n = motion.size(0), t = motion.size(2), k = motion.size(3);
-    const auto by_person = motion.reshape({n, -1, numbers, t, k}).permute({0, 3, 1, 4, 2}).flatten(0, 2);
+    const auto by_person =
+        motion.reshape({n, -1, cpu::rotation_numbers, t, k}).permute({0, 3, 1, 4, 2}).flatten(0, 2);
     return positions(by_person.slice(1, 0, k - 1));
 }
 
