@@ -14,6 +14,7 @@ import argparse
 import collections
 import dataclasses
 import filecmp
+import json
 import os
 import pathlib
 import random
@@ -112,6 +113,14 @@ class Failure(Exception):
     """Something is not as it should be."""
 
 
+def members(path, root):
+    """What a JSON file says, but for the path of the folder that it lies in, and its checksum, which is of the path too."""
+    read = json.loads(path.read_text().replace(str(root), "OUT"))
+    if isinstance(read, dict):
+        read.pop("checksum", None)
+    return read
+
+
 def differences(one, other, apart):
     """Names in which two files or folders differ, but for the folders' own paths."""
     one, other = pathlib.Path(one), pathlib.Path(other)
@@ -120,8 +129,7 @@ def differences(one, other, apart):
         a, b = one / name, other / name
         if not a.is_file() or not b.is_file():
             return False
-        return filecmp.cmp(a, b, shallow=False) or a.suffix == ".json" and (
-            a.read_bytes().replace(str(one).encode(), b"OUT") == b.read_bytes().replace(str(other).encode(), b"OUT"))
+        return filecmp.cmp(a, b, shallow=False) or a.suffix == ".json" and members(a, one) == members(b, other)
 
     if one.is_file():
         return [] if other.is_file() and filecmp.cmp(one, other, shallow=False) else [other.name]
@@ -311,6 +319,9 @@ class Chaos:
         what = self.random.choices([self.kills, self.disks, self.doubles, self.flips], [6, 1, 1, 2])[0]
         if what == self.disks and os.geteuid() != 0:
             what = self.kills
+        self.attempt(what, name)
+
+    def attempt(self, what, name):
         try:
             what(name)
         except Failure as failure:
@@ -326,11 +337,23 @@ class Chaos:
             print(f"{name:<18}" + "".join(f"{self.table[name][c]:>10}" for c in columns))
         print(f"{'all':<18}" + "".join(f"{sums[c]:>10}" for c in columns))
 
-    def run_all(self):
+    def kill_each(self, count):
+        """Until so many kills have landed in each command."""
+        for name in self.only:
+            while self.table[name]["kills"] < count and len(self.failures) < 20:
+                self.attempt(self.kills, name)
+            print(f"{name}: {self.table[name]['kills']} kills landed", flush=True)
+
+    def run_all(self, kills):
+        start = time.monotonic()
         self.prepare()
         print(f"every command once: {sum(self.seconds.values()):.0f} s", flush=True)
-        while time.monotonic() < self.end:
-            self.disturb()
+        if kills:
+            self.kill_each(kills)
+        else:
+            while time.monotonic() < self.end:
+                self.disturb()
+        print(f"{time.monotonic() - start:.0f} s")
         self.print_table()
         temporary = list((self.home / "tmp").iterdir())
         print(f"{len(self.failures)} wrong; {len(temporary)} temporary folders of killed commands wait for the next one")
@@ -345,10 +368,12 @@ def main():
     parser.add_argument("seconds", nargs="?", type=float, default=600, help="how long, every command's first run included")
     parser.add_argument("--seed", type=int, default=random.SystemRandom().randrange(1 << 32))
     parser.add_argument("--program", default="build/actformer")
+    parser.add_argument("--kills", type=int, help="instead: until so many kills have landed in each command, however long it takes")
     parser.add_argument("--only", help="these commands, as in 'score,ingest ntu'")
     options = parser.parse_args()
-    print(f"seed {options.seed}, {options.seconds:.0f} s", flush=True)
-    sys.exit(Chaos(options).run_all())
+    length = f"{options.kills} kills a command" if options.kills else f"{options.seconds:.0f} s"
+    print(f"seed {options.seed}, {length}", flush=True)
+    sys.exit(Chaos(options).run_all(options.kills))
 
 
 if __name__ == "__main__":
