@@ -30,6 +30,8 @@ struct ClipBatch {
 struct Smoothing {
     float sigma = 3;
     std::uint32_t radius = 12;
+    std::uint32_t vec =
+        0;  ///< numbers that a work-item smooths side by side: 4, 8 or 16; 0 for what suits the device
 };
 
 /// clip i's frames follow clip i-1's.

@@ -147,6 +147,12 @@ cl::Kernel Device::kernel(std::string_view file, const std::string& name, const 
     return kernel_from(text, fmt::format("{}.cl", file), name, options);
 }
 
+cl::Kernel Device::vector_kernel(std::string_view file, const std::string& name, std::uint32_t vec,
+                                 const std::string& options) {
+    return kernel_from(std::string(source("vectors")) + std::string(source(file)), fmt::format("{}.cl", file),
+                       name, fmt::format("-DVEC={}{}", vec, options));
+}
+
 cl::Kernel Device::kernel_from(std::string_view text, std::string_view label, const std::string& name,
                                const std::string& options) {
     const auto program = programs_->get(text, label, options);

@@ -54,6 +54,10 @@ class Device {
     /// Throws Error with the compiler's log where the build fails.
     cl::Kernel kernel(std::string_view file, const std::string& name, const std::string& options = {});
 
+    /// The same for a kernel of vectors of `vec` floats, which vectors.cl defines.
+    cl::Kernel vector_kernel(std::string_view file, const std::string& name, std::uint32_t vec,
+                             const std::string& options = {});
+
     /// The same from any source text; `label` names it in errors.
     cl::Kernel kernel_from(std::string_view text, std::string_view label, const std::string& name,
                            const std::string& options = {});

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "kernels/round_up.hpp"
-#include "kernels/sources.hpp"
 
 namespace actformer::kernels {
 namespace {
@@ -52,12 +51,6 @@ std::vector<double> phase_points(std::span<const double, 9> taps) {
     return out;
 }
 
-cl::Kernel vector_kernel(Device& device, const std::string& file, const std::string& name,
-                         const std::string& options) {
-    const auto text = std::string(source("vectors")) + std::string(source(file));
-    return device.kernel_from(text, file + ".cl", name, options);
-}
-
 }  // namespace
 
 std::vector<double> filter_points(std::span<const double, 9> taps, std::uint32_t stride) {
@@ -65,31 +58,29 @@ std::vector<double> filter_points(std::span<const double, 9> taps, std::uint32_t
 }
 
 Stgcn::Stgcn(Device& device, const Tiles& tiles) : device_(&device), tiles_(tiles) {
-    const auto vec = fmt::format("-DVEC={}", tiles.vec);
-    enter_ = vector_kernel(device, "graph", "enter", vec);
-    gather_ = vector_kernel(device, "graph", "gather", vec);
-    pool_ = vector_kernel(device, "graph", "pool", vec);
-    classify_ = vector_kernel(device, "graph", "classify", vec);
-    split_ = vector_kernel(device, "temporal", "split", vec);
-    join_ = vector_kernel(device, "temporal", "join", vec);
+    enter_ = device.vector_kernel("graph", "enter", tiles.vec);
+    gather_ = device.vector_kernel("graph", "gather", tiles.vec);
+    pool_ = device.vector_kernel("graph", "pool", tiles.vec);
+    classify_ = device.vector_kernel("graph", "classify", tiles.vec);
+    split_ = device.vector_kernel("temporal", "split", tiles.filter_vec);
+    join_ = device.vector_kernel("temporal", "join", tiles.filter_vec);
 }
 
 cl::Kernel Stgcn::product(bool graph, std::uint32_t a_pitch, std::uint32_t out_pitch) {
     auto& kernel = products_[{graph ? 1U : 0U, a_pitch, out_pitch}];
     if (!kernel())
-        kernel = vector_kernel(
-            *device_, "multiply", "multiply",
-            fmt::format(
-                "-DVEC={} -DTILE_ROWS={} -DTILE_VECTORS={} -DITEM_TILES={} -DCOLUMNS_FIRST={} -DA_PITCH={} "
-                "-DOUT_PITCH={}{}",
-                tiles_.vec, tiles_.rows, tiles_.vectors, tiles_.item_tiles, tiles_.columns_first ? 1 : 0,
-                a_pitch, out_pitch, graph ? " -DGRAPH" : ""));
+        kernel = device_->vector_kernel(
+            "multiply", "multiply", tiles_.vec,
+            fmt::format(" -DTILE_ROWS={} -DTILE_VECTORS={} -DITEM_TILES={} -DCOLUMNS_FIRST={} -DA_PITCH={} "
+                        "-DOUT_PITCH={}{}",
+                        tiles_.rows, tiles_.vectors, tiles_.item_tiles, tiles_.columns_first ? 1 : 0, a_pitch,
+                        out_pitch, graph ? " -DGRAPH" : ""));
     return kernel;
 }
 
 /// Work-items along channels: one takes them all where columns do not come first.
-std::size_t Stgcn::channel_items(std::uint32_t pitch) const {
-    return tiles_.columns_first ? pitch / tiles_.vec : 1;
+std::size_t Stgcn::channel_items(std::uint32_t pitch, std::uint32_t vec) const {
+    return tiles_.columns_first ? pitch / vec : 1;
 }
 
 std::uint32_t Stgcn::pitch(std::uint32_t channels) const {
@@ -104,11 +95,13 @@ PackedWeights Stgcn::pack(std::span<const float> values, std::uint32_t sets, std
                           std::uint32_t columns) const {
     const std::size_t block = tiles_.block(), blocks = pitch(columns) / block;
     std::vector<float> packed(sets * blocks * depth * block, 0.0F);
+    const auto at = [&](std::size_t s, std::size_t k, std::size_t column) {  // as multiply.cl says
+        return tiles_.columns_first ? (s * depth + k) * blocks + column : (s * blocks + column) * depth + k;
+    };
     for (std::size_t s = 0; s < sets; ++s)
         for (std::size_t k = 0; k < depth; ++k)
             for (std::size_t c = 0; c < columns; ++c)
-                packed[((s * blocks + c / block) * depth + k) * block + c % block] =
-                    values[(s * depth + k) * columns + c];
+                packed[at(s, k, c / block) * block + c % block] = values[(s * depth + k) * columns + c];
     return {Buffer<float>(*device_, packed), depth, static_cast<std::uint32_t>(blocks)};
 }
 
@@ -122,7 +115,8 @@ void Stgcn::enter(const cl::Buffer& motion, const Buffer<float>& scale, const Bu
 void Stgcn::gather(const Panels& from, const Mixture& mixture, const Panels& to, std::uint32_t behind,
                    std::uint32_t sequences, std::uint32_t frames, std::uint32_t stride) {
     const auto left = strided(frames, stride);
-    launch(*device_, gather_, {channel_items(to.pitch), std::size_t{sequences} * left, mixture.count},
+    launch(*device_, gather_,
+           {channel_items(to.pitch, tiles_.vec), std::size_t{sequences} * left, mixture.count},
            elementwise_group, from.memory, mixture.first, mixture.source, mixture.share, to.memory, sequences,
            frames, left, stride, from.rows, to.rows, to.pitch, mixture.count, behind);
 }
@@ -154,17 +148,18 @@ void Stgcn::split(const Panels& from, const Panels& to, std::uint32_t sequences,
                   std::uint32_t stride) {
     const auto tile = filtering(stride).tile, tiles = (strided(frames, stride) + tile - 1) / tile;
     const auto strips = from.count * sequences;
-    launch(*device_, split_, {channel_items(to.pitch), std::size_t{strips} * tiles, 1}, elementwise_group,
-           from.memory, to.memory, stride, sequences, frames, tiles, strips, from.rows, to.rows, to.pitch);
+    launch(*device_, split_, {channel_items(to.pitch, tiles_.filter_vec), std::size_t{strips} * tiles, 1},
+           elementwise_group, from.memory, to.memory, stride, sequences, frames, tiles, strips, from.rows,
+           to.rows, to.pitch);
 }
 
 void Stgcn::join(const Panels& from, const Buffer<float>& bias, const Panels* residual, const Panels& to,
                  std::uint32_t sequences, std::uint32_t frames, std::uint32_t stride) {
     const auto tile = filtering(stride).tile, tiles = (frames + tile - 1) / tile,
                strips = to.count * sequences;
-    launch(*device_, join_, {channel_items(to.pitch), std::size_t{strips} * tiles, 1}, elementwise_group,
-           from.memory, bias, residual ? residual->memory : bias.memory(), to.memory, residual ? 1U : 0U,
-           stride, sequences, frames, tiles, strips, to.rows, from.rows, to.pitch);
+    launch(*device_, join_, {channel_items(to.pitch, tiles_.filter_vec), std::size_t{strips} * tiles, 1},
+           elementwise_group, from.memory, bias, residual ? residual->memory : bias.memory(), to.memory,
+           residual ? 1U : 0U, stride, sequences, frames, tiles, strips, to.rows, from.rows, to.pitch);
 }
 
 void Stgcn::pool(const Panels& from, const Buffer<float>& features, std::uint32_t begin,

@@ -113,7 +113,7 @@ class Stgcn {
     cl::Kernel product(bool graph, std::uint32_t a_pitch, std::uint32_t out_pitch);
     void multiply(cl::Kernel kernel, const Panels& from, const PackedWeights& weights,
                   const Problems& problems, const Buffer<float>& bias, const Panels& to, std::size_t rows);
-    std::size_t channel_items(std::uint32_t pitch) const;
+    std::size_t channel_items(std::uint32_t pitch, std::uint32_t vec) const;
 
     Device* device_;
     Tiles tiles_;

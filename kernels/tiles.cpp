@@ -6,6 +6,7 @@ Tiles default_tiles(const DeviceInfo& device) {
     Tiles tiles;
     if (device.type == "CPU") return tiles;
     tiles.vec = 4;
+    tiles.filter_vec = 1;
     tiles.rows = 8;
     tiles.vectors = 1;
     tiles.item_tiles = 1;
@@ -16,9 +17,10 @@ Tiles default_tiles(const DeviceInfo& device) {
 }
 
 std::string describe(const Tiles& tiles) {
-    return fmt::format("{} rows x {} float{}, {} tiles an item, groups of {}{}, {} sequences at once",
-                       tiles.rows, tiles.vectors, tiles.vec, tiles.item_tiles, tiles.group,
-                       tiles.columns_first ? " along columns" : "", tiles.sequences);
+    return fmt::format(
+        "{} rows x {} float{}, {} tiles an item, groups of {}{}, filters of float{}, {} sequences at once",
+        tiles.rows, tiles.vectors, tiles.vec, tiles.item_tiles, tiles.group,
+        tiles.columns_first ? " along columns" : "", tiles.filter_vec, tiles.sequences);
 }
 
 }  // namespace actformer::kernels

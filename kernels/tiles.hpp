@@ -15,6 +15,7 @@ struct Tiles {
     std::uint32_t item_tiles = 32;  ///< tiles a work-item does one after the other
     std::uint32_t group = 1;        ///< work-items in a group of the multiply, at most
     bool columns_first = false;     ///< neighbouring work-items share rows, not weights
+    std::uint32_t filter_vec = 16;  ///< numbers in a vector of split and join; divides a block
     std::uint32_t sequences = 8;    ///< sequences that go through the network together
 
     /// Columns of a tile: channels are padded to a multiple of this.

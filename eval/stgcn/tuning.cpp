@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -37,13 +38,16 @@ Json to_json(const Tiles& t) {
             {"item_tiles", t.item_tiles},
             {"group", t.group},
             {"columns_first", t.columns_first},
+            {"filter_vec", t.filter_vec},
             {"sequences", t.sequences}};
 }
 
 bool sensible(const Tiles& t) {
     const auto within = [](std::uint32_t value, std::uint32_t most) { return value >= 1 && value <= most; };
-    return within(t.vec, 16) && (t.vec & (t.vec - 1)) == 0 && within(t.rows, 64) && within(t.vectors, 16) &&
-           within(t.item_tiles, 4096) && within(t.group, 1024) && within(t.sequences, 65536);
+    const auto vector = [&](std::uint32_t value) { return within(value, 16) && std::has_single_bit(value); };
+    return vector(t.vec) && vector(t.filter_vec) && within(t.rows, 64) && within(t.vectors, 16) &&
+           t.block() % t.filter_vec == 0 && within(t.item_tiles, 4096) && within(t.group, 1024) &&
+           within(t.sequences, 65536);
 }
 
 /// Shapes that are worth a try: what 32 vector registers hold on a processor, some dozens of numbers on a GPU.
@@ -59,6 +63,7 @@ std::vector<Tiles> shapes_to_try(const Tiles& from, bool cpu) {
         tiles.vec = vec;
         tiles.rows = rows;
         tiles.vectors = vectors;
+        tiles.filter_vec = cpu ? vec : from.filter_vec;
         out.push_back(tiles);
     }
     return out;
@@ -95,6 +100,7 @@ Tiles load_tiles(const kernels::DeviceInfo& device) {
         t.item_tiles = found->at("item_tiles");
         t.group = found->at("group");
         t.columns_first = found->at("columns_first");
+        t.filter_vec = found->at("filter_vec");
         t.sequences = found->at("sequences");
         if (sensible(t)) return t;
     } catch (const Json::exception&) {  // an entry of another version
@@ -146,6 +152,8 @@ Tiles tune(kernels::Device& device, const Weights& weights, std::uint32_t sequen
     try_all(vary(best, &Tiles::item_tiles,
                  cpu ? std::vector<std::uint32_t>{4, 8, 32, 64} : std::vector<std::uint32_t>{2, 4}));
     if (!cpu) try_all(vary(best, &Tiles::group, {32, 128, 256}));
+    try_all(vary(best, &Tiles::filter_vec,
+                 cpu ? std::vector<std::uint32_t>{8} : std::vector<std::uint32_t>{2, 4}));
     try_all(vary(best, &Tiles::sequences, {2, 4, 8, 16, 32, 64}));
     return best;
 }

@@ -7,7 +7,8 @@
 //
 // Data layout                                          BLOCK = TILE_VECTORS * VEC columns
 //   a        (panels, a_rows, A_PITCH)      float      row by row, `depth` numbers of each used
-//   w        (sets, columns / BLOCK, depth, BLOCK)     so that one work-item reads its weights in one stream
+//   w        (sets, columns / BLOCK, depth, BLOCK)     so that one work-item reads its weights in one stream; with
+//            (sets, depth, columns / BLOCK, BLOCK)     COLUMNS_FIRST, so that neighbours read theirs side by side
 //   first    (problems + 1)                 uint       segments of a problem: first[problem] .. first[problem + 1] - 1
 //   segment  (segments)                     uint2      panel, set
 //   scale    (segments)                     float      only with GRAPH: what is summed by the segment's end is multiplied
@@ -45,15 +46,16 @@ kernel void multiply(global const float* restrict a, global const float* restric
 #pragma unroll
             for (int v = 0; v < TILE_VECTORS; ++v) sum[r][v] = 0;
 
+        const size_t step = COLUMNS_FIRST ? columns * BLOCK : BLOCK;
         for (uint s = first[problem]; s < first[problem + 1]; ++s) {
             global const float* restrict rows =
                 a + ((size_t)segment[s].x * a_rows + tile * TILE_ROWS) * A_PITCH;
             global const float* restrict weights =
-                w + ((size_t)segment[s].y * columns + column) * depth * BLOCK;
+                w + ((size_t)segment[s].y * columns * depth + column * (COLUMNS_FIRST ? 1 : depth)) * BLOCK;
             for (size_t k = 0; k < depth; ++k) {
                 VECTOR weight[TILE_VECTORS];
 #pragma unroll
-                for (int v = 0; v < TILE_VECTORS; ++v) weight[v] = LOAD(v, weights + k * BLOCK);
+                for (int v = 0; v < TILE_VECTORS; ++v) weight[v] = LOAD(v, weights + k * step);
 #pragma unroll
                 for (int r = 0; r < TILE_ROWS; ++r) {
                     const VECTOR x = rows[k + r * A_PITCH];

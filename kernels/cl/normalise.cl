@@ -40,16 +40,28 @@ inline void store(float16 values, global float* to, uint count) {
     for (uint i = 0; i < count; ++i) to[i] = each[i];
 }
 
-// One work-item a sequence. Sums carry what rounding took from them (Kahan), so that long clips lose nothing.
+// One work-item a (sixteen, sequence). Sums carry what rounding took from them (Kahan), so that long clips lose nothing.
 kernel void means(global const float* rows, global const uint* start, global float* bones,
                   global float4* roots, uint persons, uint joints, uint pitch, uint sequences) {
-    const uint sequence = get_global_id(0);
-    if (sequence >= sequences) return;
+    const uint i = get_global_id(0), sequence = get_global_id(1);
+    if (i >= sixteens(joints) || sequence >= sequences) return;
     const uint clip = sequence / persons, person = sequence % persons;
     const uint begin = start[clip], end = start[clip + 1];
     const size_t stride = (size_t)persons * pitch;
     rows += ((size_t)begin * persons + person) * pitch;
     bones += (size_t)sequence * joints;
+
+    const uint joint = first_joint(i, joints);
+    float16 sum = 0, gone = 0;
+    for (uint frame = 0; frame < end - begin; ++frame) {
+        global const float* limbs = rows + frame * stride + 3 * joint;
+        const float16 term = lengths(vload16(0, limbs), vload16(1, limbs), vload16(2, limbs)) - gone;
+        const float16 next = sum + term;
+        gone = (next - sum) - term;
+        sum = next;
+    }
+    store(sum / (float)(end - begin), bones + joint, joints);
+    if (i > 0) return;
 
     float3 root = 0, lost = 0;
     for (uint frame = 0; frame < end - begin; ++frame) {
@@ -58,19 +70,6 @@ kernel void means(global const float* rows, global const uint* start, global flo
         root = next;
     }
     roots[sequence] = (float4)(root / (float)(end - begin), 0.0f);
-
-    for (uint i = 0; i < sixteens(joints); ++i) {
-        const uint joint = first_joint(i, joints);
-        float16 sum = 0, gone = 0;
-        for (uint frame = 0; frame < end - begin; ++frame) {
-            global const float* limbs = rows + frame * stride + 3 * joint;
-            const float16 term = lengths(vload16(0, limbs), vload16(1, limbs), vload16(2, limbs)) - gone;
-            const float16 next = sum + term;
-            gone = (next - sum) - term;
-            sum = next;
-        }
-        store(sum / (float)(end - begin), bones + joint, joints);
-    }
     bones[0] = 0;
 }
 

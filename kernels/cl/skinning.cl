@@ -50,15 +50,13 @@ typedef struct {
     real rows[3][4];  // rotation and place in the world
 } Placed;
 
-static Placed place(const Placed* parent, const real* own, real x, real y, real z) {
-    Placed out;
+static void place(Placed* out, const Placed* parent, const real* own, real x, real y, real z) {
     for (int i = 0; i < 3; ++i) {
         const real* row = parent->rows[i];
         for (int j = 0; j < 3; ++j)
-            out.rows[i][j] = row[0] * own[j] + row[1] * own[3 + j] + row[2] * own[6 + j];
-        out.rows[i][3] = row[0] * x + row[1] * y + row[2] * z + row[3];
+            out->rows[i][j] = row[0] * own[j] + row[1] * own[3 + j] + row[2] * own[6 + j];
+        out->rows[i][3] = row[0] * x + row[1] * y + row[2] * z + row[3];
     }
-    return out;
 }
 
 // One work-item a frame, those of the padding included.
@@ -84,7 +82,7 @@ kernel void chain(global const float* rotations, global const float* translation
         }
         for (int d = 0; d < 3; ++d)
             from[d] = (real)joints[3 * k + d] - (parent < 0 ? (real)0 : (real)joints[3 * parent + d]);
-        world[k] = place(parent < 0 ? &origin : &world[parent], own, from[0], from[1], from[2]);
+        place(&world[k], parent < 0 ? &origin : &world[parent], own, from[0], from[1], from[2]);
         for (int i = 0; i < 3; ++i) {
             const real* row = world[k].rows[i];
             const real moved =

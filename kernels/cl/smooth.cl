@@ -9,8 +9,8 @@
 //   weight  (frames, P)         float  how much of the one after
 //   limbs   (detections, C)     float  C = K*3 numbers a body; 16 spare ones behind the last
 //   rows    (frames, P, pitch)  float  pitch = C rounded up to 16; of no meaning behind the C numbers
-
-#define FRAMES 8
+//
+// Macros (vectors.cl stands before this file): VEC, at most 16, and FRAMES. A work-item holds VEC * FRAMES sums.
 
 // Frame `t` of a clip of `n` frames, mirrored back into it from wherever it lies.
 inline uint mirrored(int t, int n) {
@@ -21,16 +21,16 @@ inline uint mirrored(int t, int n) {
     return (uint)(m < n ? m : period - 1 - m);
 }
 
-inline float16 filled(global const float* limbs, uint2 pair, float weight, uint numbers) {
-    const float16 before = vload16(0, limbs + (size_t)pair.x * numbers);
+inline VECTOR filled(global const float* limbs, uint2 pair, float weight, uint numbers) {
+    const VECTOR before = LOAD(0, limbs + (size_t)pair.x * numbers);
     if (weight == 0) return before;
-    return before + weight * (vload16(0, limbs + (size_t)pair.y * numbers) - before);
+    return before + weight * (LOAD(0, limbs + (size_t)pair.y * numbers) - before);
 }
 
-// One work-item a (16 numbers of a person, FRAMES frames): every row it reads goes into all the sums at once.
+// One work-item a (VEC numbers of a person, FRAMES frames): every row it reads goes into all the sums at once.
 kernel void smooth(global const float* taps, global const uint2* block, global const uint* start,
                    global const uint2* pair, global const float* weight, global const float* limbs,
-                   global float16* rows, uint radius, uint persons, uint chunks, uint numbers, uint blocks) {
+                   global float* rows, uint radius, uint persons, uint chunks, uint numbers, uint blocks) {
     const uint column = get_global_id(0), b = get_global_id(1);
     if (column >= persons * chunks || b >= blocks) return;
     const uint person = column / chunks, chunk = column % chunks;
@@ -39,18 +39,19 @@ kernel void smooth(global const float* taps, global const uint2* block, global c
     global const uint2* pairs = pair + (size_t)begin * persons + person;
     global const float* weights = weight + (size_t)begin * persons + person;
 
-    float16 sum[FRAMES];
+    VECTOR sum[FRAMES];
 #pragma unroll
     for (int f = 0; f < FRAMES; ++f) sum[f] = 0;
     const int reach = FRAMES + 2 * (int)radius;
     for (int r = 0; r < reach; ++r) {
         const size_t at = (size_t)mirrored(first + r - (int)radius, n) * persons;
-        const float16 row = filled(limbs + chunk * 16, pairs[at], weights[at], numbers);
+        const VECTOR row = filled(limbs + chunk * VEC, pairs[at], weights[at], numbers);
 #pragma unroll
-        for (int f = 0; f < FRAMES; ++f) sum[f] = fma((float16)(taps[FRAMES - 1 + r - f]), row, sum[f]);
+        for (int f = 0; f < FRAMES; ++f) sum[f] = fma((VECTOR)(taps[FRAMES - 1 + r - f]), row, sum[f]);
     }
     // The bound is a constant and the sums stay in registers.
 #pragma unroll
     for (int f = 0; f < FRAMES; ++f)
-        if (first + f < n) rows[((size_t)(begin + first + f) * persons + person) * chunks + chunk] = sum[f];
+        if (first + f < n)
+            STORE(sum[f], ((size_t)(begin + first + f) * persons + person) * chunks + chunk, rows);
 }

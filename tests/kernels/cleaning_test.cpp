@@ -188,6 +188,15 @@ TEST(Cleaning, SmoothsWithMirroredEdgesHoweverShortTheClip) {
     }
 }
 
+// A GPU smooths fewer numbers a work-item than a processor; each of them is the same sum.
+TEST(Cleaning, SmoothsToTheSameBytesInAnyShape) {
+    const Sample s(2, 21, ragged, 11);
+    kernels::Device device;
+    const auto wide = flat(fill_and_smooth(device, s.batch, on(device, s.limbs), {3, 12, 16}), 63);
+    for (const auto vec : {4U, 8U})
+        EXPECT_EQ(flat(fill_and_smooth(device, s.batch, on(device, s.limbs), {3, 12, vec}), 63), wide) << vec;
+}
+
 TEST(Cleaning, CleansAsThePlainComputationDoes) {
     for (const auto persons : {1U, 2U, 3U})
         for (const auto joints : {2U, 15U, 16U, 21U, 25U, 52U}) {

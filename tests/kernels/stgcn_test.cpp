@@ -45,9 +45,9 @@ struct MadePanels {
     void fetch() { memory.download(values); }
 };
 
-const std::vector<Tiles> shapes{{16, 6, 4, 32, 1, false, 8}, {16, 8, 2, 8, 1, false, 8},
-                                {4, 8, 1, 1, 64, true, 64},  {1, 3, 5, 2, 4, true, 1},
-                                {8, 4, 3, 3, 2, false, 2},   {2, 1, 1, 1, 1, false, 1}};
+const std::vector<Tiles> shapes{{16, 6, 4, 32, 1, false, 16, 8}, {16, 8, 2, 8, 1, false, 16, 8},
+                                {4, 8, 1, 1, 64, true, 1, 64},   {1, 3, 5, 2, 4, true, 1, 1},
+                                {8, 4, 3, 3, 2, false, 4, 2},    {2, 1, 1, 1, 1, false, 2, 1}};
 
 }  // namespace
 

@@ -76,9 +76,9 @@ TEST(Recogniser, AgreesAtFullWidth) {
 TEST(Recogniser, AgreesWithEveryShapeOfTiles) {
     kernels::Device device;
     for (const auto& tiles :
-         {kernels::Tiles{1, 1, 1, 1, 1, false, 1}, kernels::Tiles{2, 3, 1, 2, 8, true, 2},
-          kernels::Tiles{4, 8, 1, 1, 64, true, 64}, kernels::Tiles{8, 6, 2, 5, 4, false, 3},
-          kernels::Tiles{16, 5, 4, 8, 1, false, 4}})
+         {kernels::Tiles{1, 1, 1, 1, 1, false, 1, 1}, kernels::Tiles{2, 3, 1, 2, 8, true, 1, 2},
+          kernels::Tiles{4, 8, 1, 1, 64, true, 1, 64}, kernels::Tiles{4, 4, 2, 2, 32, true, 2, 16},
+          kernels::Tiles{8, 6, 2, 5, 4, false, 4, 3}, kernels::Tiles{16, 5, 4, 8, 1, false, 16, 4}})
         expect_right({1, 23, 5, true, 0.125}, tiles, device);
 }
 
