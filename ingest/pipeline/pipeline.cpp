@@ -27,6 +27,9 @@ namespace {
 constexpr std::size_t groups_at_once = 2;  // in memory as text
 constexpr std::size_t portions_ahead = 6;  // parsed and waiting to be cleaned: enough to ride out a slow one
 
+constexpr std::size_t writes_ahead =
+    4;  // the shards of a tranche of a few datasets, and its line in the journal
+
 // Clips are cleaned together up to a group's end or so many bytes, and a shard is closed at a tranche's end or beyond so many.
 // Both depend on the clips alone, so that the output does not depend on which thread was fast.
 constexpr std::size_t most_cleaned_at_once = std::size_t{16} << 20;
@@ -183,7 +186,7 @@ class Ingest {
     /// Parsing some groups, cleaning what came before and writing the tranche before that overlap.
     void read_everything(Workplace& workplace, Source& source, const SafePoints& safe_points) {
         Groups groups(source, static_cast<double>(source.bytes_total()));
-        Worker writer(1), cleaner(portions_ahead);
+        Worker writer(writes_ahead), cleaner(portions_ahead);
         Parsers parsers(
             threads_, format_.largest_file(),
             [this](Item& item, ClipSink& sink, TextMemory& memory) { parse(item, sink, memory); });
