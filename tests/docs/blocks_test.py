@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Runs what README and docs print, block by block, in the order of a page: blocks_test.py SOURCES FOLDER_OF_THE_PROGRAM [PAGE...]
+"""Runs what README and docs print, block by block, in the order of a page: blocks_test.py SOURCES BUILD [PAGE...]
 
-A block of ```sh runs in bash, one of ```python in Python, all in one folder, so that a page finds what those before it made, with `actformer` on the
-PATH; where the page prints what a block says (```text behind it), it must say that, `...` standing for anything. HTML comments before a block:
+The program is installed from BUILD into a folder of its own, whose `actformer` is on the PATH. A block of ```sh runs in bash, one of ```python in
+Python, all in one folder, so that a page finds what those before it made; where the page prints what a block says (```text behind it), it must say that, `...` standing for anything. HTML comments before a block:
 
     <!-- not run: WHY -->                  it needs what no test has
     <!-- in tests: X -> Y; X -> Y -->      X is replaced, so that a test takes seconds; with --printed it is not
@@ -95,15 +95,16 @@ def check_page(page, sources, folder, environment, printed):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("sources", type=pathlib.Path)
-    parser.add_argument("program", type=pathlib.Path, help="folder of the program")
+    parser.add_argument("build", type=pathlib.Path, help="where the program was built")
     parser.add_argument("pages", nargs="*")
     parser.add_argument("--printed", action="store_true", help="as printed: no shorter training")
     options = parser.parse_args()
     sources = options.sources.resolve()
-    environment = dict(os.environ, PATH=f"{options.program.resolve()}:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", PYTHONPATH=str(sources / "python"))
     pages = options.pages or ["README.md", "examples/cmu/README.md", "weights/cmu/README.md", "python/README.md",
                               *sorted(f"docs/{page.name}" for page in (sources / "docs").glob("*.md"))]
-    with tempfile.TemporaryDirectory(prefix="actformer-docs-") as folder:
+    with tempfile.TemporaryDirectory(prefix="actformer-docs-") as folder, tempfile.TemporaryDirectory(prefix="actformer-installed-") as installed:
+        subprocess.run(["cmake", "--install", options.build, "--prefix", installed], check=True, stdout=subprocess.DEVNULL)
+        environment = dict(os.environ, PATH=f"{installed}/bin:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", PYTHONPATH=str(sources / "python"))
         for name in ("examples", "model", "reports", "tests", "weights"):  # it looks like the repository's root, as far as pages name it
             (pathlib.Path(folder) / name).symlink_to(sources / name)
         if sum(check_page(page, sources, folder, environment, options.printed) for page in pages) == 0:
