@@ -1,25 +1,30 @@
-// Device memory that the host reads in place.
+// Device memory that the host reads in place, or memory of the host where there is no device.
 #pragma once
 
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "kernels/buffer.hpp"
 
 namespace actformer::kernels {
 
 /// `count` values of T where both sides reach them: one and the same memory on a device that shares it with the host,
-/// page-locked host memory on most others.
+/// page-locked host memory on most others. Without a device it is the host's alone.
 template <typename T>
 class HostBuffer {
   public:
     HostBuffer() = default;
-    HostBuffer(Device& device, std::size_t count) : device_(&device), count_(count) {
+    HostBuffer(Device* device, std::size_t count) : device_(device), count_(count) {
+        if (!device) {
+            own_.resize(count);
+            return;
+        }
         try {
-            memory_ = cl::Buffer(device.context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
+            memory_ = cl::Buffer(device->context(), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR,
                                  std::max<std::size_t>(count, 1) * sizeof(T));
         } catch (const cl::Error& e) {
-            raise(device.info(), fmt::format("allocating {} bytes", count * sizeof(T)), e);
+            raise(device->info(), fmt::format("allocating {} bytes", count * sizeof(T)), e);
         }
     }
     ~HostBuffer() {
@@ -35,11 +40,11 @@ class HostBuffer {
     }
 
     std::size_t size() const { return count_; }
-    const cl::Buffer& memory() const { return memory_; }
+    const cl::Buffer& memory() const { return memory_; }  ///< of a buffer that has a device
 
     /// Asks for the values as they are once everything launched before is done; returns at once.
     void begin_map() {
-        if (mapped_) return;
+        if (mapped_ || !device_) return;
         try {
             mapped_ = static_cast<T*>(device_->queue().enqueueMapBuffer(
                 memory_, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0,
@@ -52,6 +57,7 @@ class HostBuffer {
 
     /// Waits for the values. The span is good until unmap() or the end of this buffer; the device must not use it before.
     std::span<T> map() {
+        if (!device_) return own_;
         begin_map();
         try {
             ready_.wait();
@@ -75,6 +81,7 @@ class HostBuffer {
     void swap(HostBuffer& other) noexcept {
         std::swap(device_, other.device_);
         std::swap(count_, other.count_);
+        std::swap(own_, other.own_);
         std::swap(memory_, other.memory_);
         std::swap(mapped_, other.mapped_);
         std::swap(ready_, other.ready_);
@@ -82,6 +89,7 @@ class HostBuffer {
 
     Device* device_ = nullptr;
     std::size_t count_ = 0;
+    std::vector<T> own_;
     cl::Buffer memory_;
     T* mapped_ = nullptr;
     cl::Event ready_;

@@ -52,15 +52,25 @@ void check(const ClipTable& table) {
 
 }  // namespace
 
-ClipStore::ClipStore(Device& device, ClipTable table) : device_(&device), table_(std::move(table)) {
+std::size_t ClipStore::place() {
     check(table_);
-    std::vector<std::uint32_t> rows;
-    std::uint64_t total = 0;
-    for (std::size_t c = 0; c < table_.clips(); ++c) {
+    std::size_t total = 0;
+    for (const auto frames : table_.frames) {
         first_.push_back(total);
-        rows.insert(rows.end(), {low(total), table_.frames[c], table_.labels[c], 0U});
-        total += table_.frames[c];
+        total += frames;
     }
+    return total;
+}
+
+ClipStore::ClipStore(ClipTable table) : table_(std::move(table)) {
+    memory_.resize(place() * table_.frame_values());
+}
+
+ClipStore::ClipStore(Device& device, ClipTable table) : device_(&device), table_(std::move(table)) {
+    const auto total = place();
+    std::vector<std::uint32_t> rows;
+    for (std::size_t c = 0; c < table_.clips(); ++c)
+        rows.insert(rows.end(), {low(first_[c]), table_.frames[c], table_.labels[c], 0U});
     const auto bytes = total * table_.frame_values() * sizeof(float);
     if (total > 0xFFFF'FFFFU || bytes > device.info().max_allocation)
         throw Error(
@@ -76,6 +86,11 @@ void ClipStore::load(std::size_t clip, std::span<const float> values) {
     const auto wanted = table_.frames.at(clip) * table_.frame_values();
     if (values.size() != wanted)
         throw Error("clip {}: {} values where {} are expected", clip, values.size(), wanted);
+    if (!device_) {
+        std::ranges::copy(
+            values, memory_.begin() + static_cast<std::ptrdiff_t>(first_[clip] * table_.frame_values()));
+        return;
+    }
     try {
         device_->queue().enqueueWriteBuffer(motion_.memory(), CL_TRUE,
                                             first_[clip] * table_.frame_values() * sizeof(float),
@@ -85,13 +100,19 @@ void ClipStore::load(std::size_t clip, std::span<const float> values) {
     }
 }
 
+std::span<const float> ClipStore::in_memory(std::size_t clip) const {
+    const auto values = table_.frame_values();
+    return std::span(memory_).subspan(first_.at(clip) * values, table_.frames[clip] * values);
+}
+
 Batch::Batch(const ClipStore& clips, std::uint32_t samples, std::uint32_t window)
     : samples_(samples), window_(window), sample_values_(clips.table().frame_values() * window) {
     if (samples == 0 || window == 0)
         throw Error("a batch of {} windows of {} frames: both must be at least 1", samples, window);
-    values_ = HostBuffer<float>(clips.device(), samples * sample_values_);
-    labels_ = HostBuffer<std::uint32_t>(clips.device(), samples);
-    picks_ = HostBuffer<std::uint32_t>(clips.device(), std::size_t{samples} * 2);
+    auto* const device = clips.on_device() ? &clips.device() : nullptr;
+    values_ = HostBuffer<float>(device, samples * sample_values_);
+    labels_ = HostBuffer<std::uint32_t>(device, samples);
+    picks_ = HostBuffer<std::uint32_t>(device, std::size_t{samples} * 2);
 }
 
 void Batch::begin(std::uint32_t filled, const ClipStore& clips) {
@@ -99,6 +120,13 @@ void Batch::begin(std::uint32_t filled, const ClipStore& clips) {
         throw Error("a batch made for clips of another shape cannot be filled from these");
     unmap();
     filled_ = filled;
+}
+
+void Batch::show(std::uint32_t sample, const Shot& shot, Padding padding, const ClipStore& clips) {
+    kernels::show(clips.table(), clips.in_memory(shot.clip), shot, padding, window_,
+                  values_.map().subspan(sample * sample_values_, sample_values_));
+    labels_.map()[sample] = clips.table().labels[shot.clip];
+    std::ranges::copy(std::array{shot.clip, shot.first}, &picks_.map()[std::size_t{sample} * 2]);
 }
 
 Batch::View Batch::map() {
@@ -120,27 +148,32 @@ Sampler::Sampler(const ClipStore& clips, const SamplerOptions& options) : clips_
     std::map<std::uint32_t, std::vector<std::uint32_t>> members;
     for (std::size_t c = 0; c < clips.table().clips(); ++c)
         members[clips.table().labels[c]].push_back(static_cast<std::uint32_t>(c));
-    std::vector<std::uint32_t> by_class, first{0};
-    std::vector<std::uint64_t> edge;
+    auto& [by_class, first, edge] = classes_;
     for (const auto& [label, of_class] : members) {
         by_class.insert(by_class.end(), of_class.begin(), of_class.end());
         first.push_back(static_cast<std::uint32_t>(by_class.size()));
         edge.push_back((edge.empty() ? 0 : edge.back()) + class_weight(of_class.size(), options.classes));
     }
-    drawn_ = static_cast<std::uint32_t>(members.size());
+    if (!clips.on_device()) return;
     by_class_ = Buffer<std::uint32_t>(clips.device(), by_class);
     class_first_ = Buffer<std::uint32_t>(clips.device(), first);
     class_edge_ = Buffer<std::uint64_t>(clips.device(), edge);
 }
 
 void Sampler::draw(std::uint64_t index, Batch& into) const {
-    auto& device = clips_->device();
     const auto& table = clips_->table();
-    const auto moved = table.centring.value_or(Centring{});
     into.begin(into.samples_, *clips_);
+    if (!clips_->on_device()) {
+        for (std::uint32_t i = 0; i < into.samples_; ++i)
+            into.show(i, drawn(table, classes_, options_, index, i, into.window_), options_.padding, *clips_);
+        return;
+    }
+    auto& device = clips_->device();
+    const auto moved = table.centring.value_or(Centring{});
     launch(device, sampler_kernel(device, "draw"), {into.window_, into.samples_}, clips_->motion(),
-           clips_->clips(), by_class_, class_first_, class_edge_, drawn_, low(options_.seed),
-           high(options_.seed), low(index), high(index), options_.first_sample,
+           clips_->clips(), by_class_, class_first_, class_edge_,
+           static_cast<std::uint32_t>(classes_.edge.size()), low(options_.seed), high(options_.seed),
+           low(index), high(index), options_.first_sample,
            static_cast<std::uint32_t>(options_.permute_persons),
            static_cast<std::uint32_t>(options_.padding == Padding::hold), share_of_root(table, into.window_),
            into.samples_, into.window_, table.persons, table.nodes, table.numbers, moved.root, moved.first,
@@ -160,24 +193,30 @@ std::vector<Window> consecutive_windows(std::span<const std::uint32_t> frames, s
 }
 
 WindowCutter::WindowCutter(const ClipStore& clips, const std::vector<Window>& windows)
-    : clips_(&clips), count_(windows.size()) {
+    : clips_(&clips), windows_(windows) {
     std::vector<std::uint32_t> rows;
     for (const auto& w : windows) {
         if (w.clip >= clips.table().clips() || w.first >= clips.table().frames[w.clip])
             throw Error("a window begins at frame {} of clip {}, which is not there", w.first, w.clip);
         rows.insert(rows.end(), {w.clip, w.first});
     }
-    windows_ = Buffer<std::uint32_t>(clips.device(), rows);
+    if (clips.on_device()) on_device_ = Buffer<std::uint32_t>(clips.device(), rows);
 }
 
 void WindowCutter::cut(std::size_t first, Batch& into) const {
-    auto& device = clips_->device();
     const auto& table = clips_->table();
-    const auto filled = first < count_ ? std::min<std::size_t>(into.samples_, count_ - first) : 0;
-    const auto moved = table.centring.value_or(Centring{});
+    const auto filled = first < windows() ? std::min<std::size_t>(into.samples_, windows() - first) : 0;
     into.begin(static_cast<std::uint32_t>(filled), *clips_);
+    if (!clips_->on_device()) {
+        for (std::uint32_t i = 0; i < filled; ++i)
+            into.show(i, {windows_[first + i].clip, windows_[first + i].first}, Padding::back_and_forth,
+                      *clips_);
+        return;
+    }
+    auto& device = clips_->device();
+    const auto moved = table.centring.value_or(Centring{});
     launch(device, sampler_kernel(device, "cut"), {into.window_, into.filled_}, clips_->motion(),
-           clips_->clips(), windows_, static_cast<std::uint32_t>(first), share_of_root(table, into.window_),
+           clips_->clips(), on_device_, static_cast<std::uint32_t>(first), share_of_root(table, into.window_),
            into.filled_, into.window_, table.persons, table.nodes, table.numbers, moved.root, moved.first,
            moved.count, into.values_.memory(), into.labels_.memory(), into.picks_.memory());
 }

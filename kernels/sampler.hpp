@@ -1,37 +1,24 @@
-// Batches of windows for training and for evaluation, made on the device from clips that lie there.
+// Batches of windows for training and for evaluation, made on the device from clips that lie there; or by the processor itself.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "kernels/buffer.hpp"
+#include "kernels/clip_table.hpp"
 #include "kernels/host_buffer.hpp"
+#include "kernels/plain_sampler.hpp"
 
 namespace actformer::kernels {
 
-/// A window is centred: the position that node `root` carries in its first three numbers is averaged over the window's
-/// frames and persons, and taken from the first three numbers of `count` nodes from `first` on.
-struct Centring {
-    std::uint32_t root = 0, first = 0, count = 1;
-};
-
-/// What is known of the clips before their frames come.
-struct ClipTable {
-    std::uint32_t persons = 1, nodes = 0, numbers = 3;  ///< persons at most 16; numbers of a node
-    std::vector<std::uint32_t> frames;                  ///< (clips) each at least 1
-    std::vector<std::uint32_t> labels;                  ///< (clips)
-    std::optional<Centring> centring = {};              ///< none: windows are shown as they are
-
-    std::size_t clips() const { return frames.size(); }
-    std::size_t frame_values() const { return std::size_t{persons} * nodes * numbers; }
-};
-
-/// Clips on a device: every frame, and which clip has which label.
+/// Clips on a device, or in memory where there is none: every frame, and which clip has which label.
 class ClipStore {
   public:
+    /// In memory: its windows are drawn by the processor itself. Throws Error as below.
+    explicit ClipStore(ClipTable table);
+
     /// Makes room. Throws Error for a table without clips, a clip without frames, or frames that do not fit on the device.
     ClipStore(Device& device, ClipTable table);
 
@@ -39,14 +26,20 @@ class ClipStore {
     void load(std::size_t clip, std::span<const float> values);
 
     const ClipTable& table() const { return table_; }
-    Device& device() const { return *device_; }
+    bool on_device() const { return device_ != nullptr; }
+    Device& device() const { return *device_; }  ///< where on_device()
+    std::span<const float> in_memory(
+        std::size_t clip) const;  ///< (frames, P, nodes, numbers) where not on_device()
     const Buffer<float>& motion() const { return motion_; }
     const Buffer<std::uint32_t>& clips() const { return clips_; }
 
   private:
-    Device* device_;
+    std::size_t place();  ///< fills first_; how many frames there are
+
+    Device* device_ = nullptr;
     ClipTable table_;
     std::vector<std::uint64_t> first_;  ///< frame of each clip
+    std::vector<float> memory_;         ///< of all clips, where there is no device
     Buffer<float> motion_;
     Buffer<std::uint32_t> clips_;  ///< (clips, 4): first frame, frames, label, 0
 };
@@ -79,30 +72,13 @@ class Batch {
     friend class Sampler;
     friend class WindowCutter;
     void begin(std::uint32_t filled, const ClipStore& clips);
+    void show(std::uint32_t sample, const Shot& shot, Padding padding,
+              const ClipStore& clips);  ///< in memory
 
     std::uint32_t samples_ = 0, window_ = 0, filled_ = 0;
     std::size_t sample_values_ = 0;
     HostBuffer<float> values_;
     HostBuffer<std::uint32_t> labels_, picks_;
-};
-
-enum class ClassSampling {
-    square_root,  ///< class c with probability proportional to sqrt(its clips)
-    plain         ///< to its clips: every clip as likely
-};
-
-/// What a window shows of a clip shorter than itself.
-enum class Padding {
-    back_and_forth,  ///< 0 1 .. n-1 n-2 .. 1 0 1 ..
-    hold             ///< the last frame again and again
-};
-
-struct SamplerOptions {
-    std::uint64_t seed = 0;
-    ClassSampling classes = ClassSampling::square_root;
-    bool permute_persons = true;
-    std::uint32_t first_sample = 0;  ///< of a batch's part: how many samples of it others draw before these
-    Padding padding = Padding::back_and_forth;
 };
 
 /// Random batches: a class, a clip of it, a window (a crop of a longer clip; a shorter one is padded), the order
@@ -119,9 +95,9 @@ class Sampler {
   private:
     const ClipStore* clips_;
     SamplerOptions options_;
-    std::uint32_t drawn_ = 0;                       ///< classes that have clips
-    Buffer<std::uint32_t> by_class_, class_first_;  ///< (clips), (drawn + 1)
-    Buffer<std::uint64_t> class_edge_;              ///< (drawn)
+    ClassTable classes_;
+    Buffer<std::uint32_t> by_class_, class_first_;  ///< of classes_, on the device
+    Buffer<std::uint64_t> class_edge_;
 };
 
 /// The weight of a class of `clips` clips: the square root in steps of 2^-16, or the number itself in the same steps.
@@ -142,15 +118,15 @@ class WindowCutter {
     /// `clips` must outlive the cutter.
     WindowCutter(const ClipStore& clips, const std::vector<Window>& windows);
 
-    std::size_t windows() const { return count_; }
+    std::size_t windows() const { return windows_.size(); }
 
     /// Starts to fill `into` with the windows from number `first` on, as many as it holds and there are.
     void cut(std::size_t first, Batch& into) const;
 
   private:
     const ClipStore* clips_;
-    std::size_t count_;
-    Buffer<std::uint32_t> windows_;  ///< (windows, 2)
+    std::vector<Window> windows_;
+    Buffer<std::uint32_t> on_device_;  ///< (windows, 2)
 };
 
 }  // namespace actformer::kernels

@@ -23,8 +23,10 @@ const Topology& topology_of(const Dataset& dataset, Joints joints) {
     return joints == Joints::own ? dataset.header().topology : common15();
 }
 
-View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split, Joints joints) {
-    auto clips = clips_in(dataset, split);
+namespace {
+
+/// What is known of the clips, as those who are shown `joints` see them.
+kernels::ClipTable table_of(const Dataset& dataset, const std::vector<std::size_t>& clips, Joints joints) {
     kernels::ClipTable table;
     const auto representation = representation_of(dataset, joints);
     table.persons = dataset.header().persons;
@@ -40,7 +42,11 @@ View load_view(kernels::Device& device, const Dataset& dataset, const std::strin
         table.frames.push_back(clip.frames);
         table.labels.push_back(clip.label);
     }
-    kernels::ClipStore store(device, std::move(table));
+    return table;
+}
+
+/// Reads the clips into a store that has room for them.
+View loaded(kernels::ClipStore store, std::vector<std::size_t> clips, const Dataset& dataset, Joints joints) {
     std::optional<CommonJoints> common;
     if (joints == Joints::common15) common.emplace(dataset.body(clips[0]), dataset.folder().string());
     for (std::size_t i = 0; i < clips.size(); ++i) {
@@ -48,6 +54,20 @@ View load_view(kernels::Device& device, const Dataset& dataset, const std::strin
         store.load(i, common ? common->of(motion, dataset.bone_length(clips[i])).values : motion.values);
     }
     return {std::move(clips), std::move(store)};
+}
+
+}  // namespace
+
+View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split, Joints joints) {
+    auto clips = clips_in(dataset, split);
+    kernels::ClipStore store(device, table_of(dataset, clips, joints));
+    return loaded(std::move(store), std::move(clips), dataset, joints);
+}
+
+View load_view(const Dataset& dataset, const std::string& split, Joints joints) {
+    auto clips = clips_in(dataset, split);
+    kernels::ClipStore store(table_of(dataset, clips, joints));
+    return loaded(std::move(store), std::move(clips), dataset, joints);
 }
 
 }  // namespace actformer::ingest

@@ -1,4 +1,4 @@
-// A split of a dataset on a device, ready to be sampled.
+// A split of a dataset on a device or in memory, ready to be sampled.
 #pragma once
 
 #include <functional>
@@ -27,5 +27,8 @@ const Topology& topology_of(const Dataset& dataset, Joints joints);
 /// clip, for more frames than the device takes, and as CommonJoints does.
 View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split,
                Joints joints = Joints::own);
+
+/// The same in memory, for a machine without OpenCL.
+View load_view(const Dataset& dataset, const std::string& split, Joints joints = Joints::own);
 
 }  // namespace actformer::ingest

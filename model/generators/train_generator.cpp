@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "base/error.hpp"
-#include "ingest/dataset/view.hpp"
 #include "model/generators/generator_file.hpp"
 #include "model/generators/generator_scorer.hpp"
 #include "model/nn/blas.hpp"
@@ -32,8 +31,8 @@ TrainingResult train_here(const Config& config, const std::filesystem::path& run
     const auto device = torch_device(device_name);
     const auto processes =
         data_parallel ? std::make_unique<Processes>(place, device) : std::make_unique<Processes>();
-    kernels::Device opencl(settings.opencl);
-    const auto clips = ingest::load_view(opencl, dataset, settings.train_split).store;
+    auto opencl = device_that_draws(settings.opencl, place.leads() ? events.note : nullptr);
+    const auto clips = view_to_draw(opencl, dataset, settings.train_split).store;
     const LearnerSetup setup{clips, device, *processes};
     const auto learner = method.learner(config, spec, setup);
     std::unique_ptr<GeneratorScorer> scorer;

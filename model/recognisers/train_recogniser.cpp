@@ -73,11 +73,11 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
     const auto& header = dataset.header();
     const auto joints = settings.joints_seen();
     auto trainee = trainee_for(settings, dataset, torch_device(settings.device));
-    kernels::Device opencl(settings.opencl);
-    const auto clips = ingest::load_view(opencl, dataset, settings.train_split, joints).store;
+    auto opencl = device_that_draws(settings.opencl, events.note);
+    const auto clips = view_to_draw(opencl, dataset, settings.train_split, joints).store;
     std::optional<kernels::ClipStore> test_clips;
     if (!settings.test_split.empty())
-        test_clips = ingest::load_view(opencl, dataset, settings.test_split, joints).store;
+        test_clips = view_to_draw(opencl, dataset, settings.test_split, joints).store;
     const Processes alone;
     const LearnerSetup setup{clips, torch_device(settings.device), alone};
     RecogniserLearner learner(settings, std::move(trainee.network), header.classes.size(),

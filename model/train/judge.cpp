@@ -1,5 +1,6 @@
 #include "model/train/judge.hpp"
 
+#include "base/error.hpp"
 #include "eval/metrics/confusion.hpp"
 #include "eval/metrics/fid.hpp"
 #include "eval/scoring/feature_extractor.hpp"
@@ -11,11 +12,19 @@ namespace {
 
 constexpr std::uint32_t together = 64;
 
+const std::string& checked(const std::string& opencl) {
+    if (opencl == no_opencl)
+        throw Error(
+            "recogniser=: scores are computed in OpenCL, and opencl=none keeps it out; leave one of them "
+            "out");
+    return opencl;
+}
+
 }  // namespace
 
 struct Judge::Parts {
     Parts(const std::filesystem::path& recogniser, const std::string& opencl)
-        : device(opencl), extractor(device, recogniser, together) {}
+        : device(checked(opencl)), extractor(device, recogniser, together) {}
 
     /// `count` sequences (count, P*D, frames, K) with their labels, added to `samples`.
     void see(std::span<const float> values, std::span<const std::uint32_t> labels, eval::Samples& samples) {

@@ -61,10 +61,10 @@ void add_trainer_keys(KeyTable<Settings>& table) {
         .add(&Settings::seed, {.name = "seed", .meaning = "of all that is random", .least = 0, .most = 9e15})
         .add(&Settings::device,
              {.name = "device", .meaning = "where libtorch trains: cpu, cuda or cuda:N", .free = true})
-        .add(&Settings::opencl,
-             {.name = "opencl",
-              .meaning = "OpenCL device that draws windows and scores; empty for the usual one",
-              .free = true})
+        .add(&Settings::opencl, {.name = "opencl",
+                                 .meaning = "OpenCL device that draws windows and scores; empty for the "
+                                            "usual one; none: the processor draws",
+                                 .free = true})
         .add(&Settings::threads, {.name = "threads",
                                   .meaning = "processor threads; 0 takes all",
                                   .least = 0,

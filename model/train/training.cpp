@@ -1,6 +1,7 @@
 #include "model/train/training.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "base/error.hpp"
 #include "base/random/splitmix.hpp"
@@ -37,6 +38,22 @@ at::ScalarType torch_type(const std::string& precision) {
 ingest::Dataset dataset_to_train_on(const std::string& data) {
     if (data.empty()) throw Error("no dataset: give --data DATASET, or data: in the configuration");
     return ingest::Dataset(ingest::one_dataset_at(data));
+}
+
+std::optional<kernels::Device> device_that_draws(const std::string& opencl,
+                                                 const std::function<void(const std::string&)>& note) {
+    if (opencl == no_opencl) return std::nullopt;
+    const char* set = std::getenv("ACTFORMER_DEVICE");
+    const bool named = !opencl.empty() || (set && *set);
+    if (named || !kernels::list_devices().empty()) return std::optional<kernels::Device>(opencl);
+    if (note) note("no OpenCL device: the processor draws the windows");
+    return std::nullopt;
+}
+
+ingest::View view_to_draw(std::optional<kernels::Device>& device, const ingest::Dataset& dataset,
+                          const std::string& split, ingest::Joints joints) {
+    return device ? ingest::load_view(*device, dataset, split, joints)
+                  : ingest::load_view(dataset, split, joints);
 }
 
 at::Tensor values_of(const Windows& windows, std::int64_t channels, std::int64_t frames, std::int64_t joints,

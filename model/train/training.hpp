@@ -4,10 +4,13 @@
 #include <ATen/ATen.h>
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/view.hpp"
 #include "model/train/window_feed.hpp"
 
 namespace actformer::model {
@@ -23,6 +26,15 @@ at::ScalarType torch_type(const std::string& precision);
 
 /// The one dataset at `data`, a configuration's key. Throws Error where it is empty or holds several.
 ingest::Dataset dataset_to_train_on(const std::string& data);
+
+/// The device that draws a training's windows, as the key `opencl` names it. None where that is `none`, or where nothing was named and
+/// the machine has no OpenCL, which is noted: the processor draws the same windows then.
+std::optional<kernels::Device> device_that_draws(const std::string& opencl,
+                                                 const std::function<void(const std::string&)>& note);
+
+/// A split to draw from, on that device.
+ingest::View view_to_draw(std::optional<kernels::Device>& device, const ingest::Dataset& dataset,
+                          const std::string& split, ingest::Joints joints = ingest::Joints::own);
 
 /// Windows on their way to `device`: (count, channels, frames, joints) float32, and their labels (count) int64. On the
 /// CPU the values are the feed's own memory, good until it moves on.

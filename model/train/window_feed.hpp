@@ -1,14 +1,18 @@
-// Windows of a dataset's split on their way to a trainer: drawn on the OpenCL device, read in place.
+// Windows of a dataset's split on their way to a trainer: drawn on the OpenCL device and read in place, or drawn by the processor.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "kernels/sampler.hpp"
 
 namespace actformer::model {
+
+/// The key `opencl` where no OpenCL shall be used: the processor draws.
+inline constexpr std::string_view no_opencl = "none";
 
 /// Windows in host memory, good until the feed moves on.
 struct Windows {

@@ -353,6 +353,53 @@ TEST(Sampler, CentresAllJointsByTheirRoot) {
     expect_centred(3, {0, 0, 4});
 }
 
+namespace {
+
+/// Batches of random windows and all consecutive ones, drawn from the device and by the processor.
+void expect_the_same_in_memory(ClipTable table, Padding padding) {
+    Device device;
+    ClipStore there(device, table), here(table);
+    for (std::size_t c = 0; c < table.clips(); ++c) {
+        std::vector<float> values;
+        for (std::size_t i = 0; i < table.frames[c] * table.frame_values(); ++i)
+            values.push_back(std::sin(0.37F * static_cast<float>(i + 50 * c)) + static_cast<float>(i % 12));
+        there.load(c, values);
+        here.load(c, values);
+    }
+    Batch a(there, 64, 20), b(here, 64, 20);
+    const auto expect_same = [&] {
+        const auto x = a.map(), y = b.map();
+        EXPECT_TRUE(std::ranges::equal(x.picks, y.picks) && std::ranges::equal(x.labels, y.labels));
+        EXPECT_TRUE(std::ranges::equal(x.values, y.values));
+    };
+    const SamplerOptions options{.seed = 0x123456789ABCDEF, .first_sample = 3, .padding = padding};
+    for (const std::uint64_t batch : {std::uint64_t{0}, std::uint64_t{7}, std::uint64_t{1} << 40}) {
+        Sampler(there, options).draw(batch, a);
+        Sampler(here, options).draw(batch, b);
+        expect_same();
+    }
+    const auto windows = consecutive_windows(table.frames, 20);
+    for (std::size_t first = 0; first < windows.size(); first += 64) {
+        WindowCutter(there, windows).cut(first, a);
+        WindowCutter(here, windows).cut(first, b);
+        ASSERT_EQ(a.filled(), b.filled());
+        expect_same();
+    }
+}
+
+}  // namespace
+
+TEST(Sampler, DrawsTheSameWithoutADevice) {
+    std::vector<std::uint32_t> frames, labels;
+    for (std::uint32_t c = 0; c < 90; ++c) {
+        frames.push_back(1 + c * c % 67);
+        labels.push_back(c % 7 * (c % 3));
+    }
+    expect_the_same_in_memory({1, 5, 3, frames, labels, Centring{0, 0, 1}}, Padding::back_and_forth);
+    expect_the_same_in_memory({5, 4, 6, frames, labels, Centring{3, 3, 1}}, Padding::hold);
+    expect_the_same_in_memory({16, 3, 3, frames, labels, {}}, Padding::back_and_forth);
+}
+
 TEST(ClipStore, RefusesWhatCannotBeDrawn) {
     Device device;
     EXPECT_THROW(ClipStore(device, ClipTable{1, 4, 3, {}, {}}), Error);

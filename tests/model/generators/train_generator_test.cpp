@@ -128,6 +128,24 @@ TEST_F(TrainGenerator, FlippedBytesInWeightsAndCheckpointsAreNoticed) {
     });
 }
 
+// Containers with CUDA often have no OpenCL.
+TEST_F(TrainGenerator, WithoutOpenClTheProcessorDrawsTheSameWindows) {
+    ASSERT_EQ(train("usual").exit, 0);
+    const auto weights = read_file(dir / "usual/weights-last.h5");
+    const auto none = train("none", "opencl=none");
+    ASSERT_EQ(none.exit, 0) << none.output;
+    const auto last = newest(dir / "usual");
+    expect_same_checkpoint(dir / "usual" / last, dir / "none" / last);
+    const auto no_driver = run_command("OCL_ICD_VENDORS=/nowhere " + program() + " " + line("no-driver"));
+    ASSERT_EQ(no_driver.exit, 0) << no_driver.output;
+    EXPECT_NE(no_driver.output.find("no OpenCL device: the processor draws the windows"), std::string::npos)
+        << no_driver.output;
+    EXPECT_TRUE(read_file(dir / "no-driver/weights-last.h5") == weights) << "other weights";
+    const auto judged = train("judged", "opencl=none " + recogniser());
+    EXPECT_EQ(judged.exit, 1);
+    EXPECT_NE(judged.output.find("scores are computed in OpenCL"), std::string::npos) << judged.output;
+}
+
 TEST_F(TrainGenerator, RatesDropAtTheEpochsNamed) {
     // Powers of two: a quarter of four times a rate is the rate, to the bit.
     const std::string high = "generator_rate=0.0009765625 discriminator_rate=0.0009765625 epochs=2 ",
