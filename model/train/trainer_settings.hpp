@@ -20,7 +20,8 @@ struct TrainerSettings {
     std::uint64_t seed = 0;
     std::string device = "cpu",
                 opencl;  ///< of libtorch, as in "cuda:0"; of the sampler, as --device elsewhere
-    int threads = 0;     ///< 0: as many as the process may use
+    bool tf32 = false, deterministic = false;  ///< of CUDA's kernels: see use_kernels()
+    int threads = 0;                           ///< 0: as many as the process may use
 
     /// What the rates are multiplied by in epoch `epoch`, from 0: rate_factor once for every drop that has come.
     double rate_share(std::uint64_t epoch) const {
@@ -65,6 +66,10 @@ void add_trainer_keys(KeyTable<Settings>& table) {
                                  .meaning = "OpenCL device that draws windows and scores; empty for the "
                                             "usual one; none: the processor draws",
                                  .free = true})
+        .add(&Settings::tf32,
+             {.name = "tf32", .meaning = "CUDA: products of float32 with 10 bits behind the point, faster"})
+        .add(&Settings::deterministic,
+             {.name = "deterministic", .meaning = "CUDA: only kernels that give the same bits every time"})
         .add(&Settings::threads, {.name = "threads",
                                   .meaning = "processor threads; 0 takes all",
                                   .least = 0,

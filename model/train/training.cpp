@@ -31,6 +31,19 @@ at::Device torch_device(const std::string& name) {
     }
 }
 
+void use_kernels(const TrainerSettings& settings, const at::Device& device) {
+    if (settings.tf32 && !device.is_cuda())
+        throw Error("tf32: true is for CUDA; with device: {}, leave it out", settings.device);
+    auto& context = at::globalContext();
+    context.setAllowTF32CuBLAS(settings.tf32);
+    context.setAllowTF32CuDNN(settings.tf32);
+    if (!device.is_cuda()) return;
+    if (settings.deterministic)
+        ::setenv("CUBLAS_WORKSPACE_CONFIG", ":4096:8", 0);  // before cuBLAS begins, as it demands
+    context.setDeterministicAlgorithms(settings.deterministic, /*warn_only=*/false);
+    context.setDeterministicCuDNN(settings.deterministic);
+}
+
 at::ScalarType torch_type(const std::string& precision) {
     return precision == "float64" ? at::kDouble : at::kFloat;
 }

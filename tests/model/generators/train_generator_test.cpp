@@ -311,6 +311,7 @@ TEST_F(TrainGenerator, RefusesWhatCannotBeTrained) {
     expect_refused(train("r", "genrator_rate=1"), {"did you mean 'generator_rate'"});
     expect_refused(train("r", "device=cuda:7"), {"device cuda:7"});
     expect_refused(train("r", "bf16=true"), {"bf16", "CUDA"});
+    expect_refused(train("r", "tf32=true"), {"tf32", "CUDA"});
     expect_refused(train("r", "recogniser=" + at("toy.yaml")), {"toy.yaml"});
     expect_refused(train("r", "--data-parallel"), {"--data-parallel", "torchrun", "mpirun", "srun"});
     EXPECT_FALSE(fs::exists(dir / "r"));

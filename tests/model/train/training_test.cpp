@@ -1,0 +1,20 @@
+#include "model/train/training.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/error.hpp"
+
+using namespace actformer;
+
+// libtorch lets cuDNN round to TF32 unless it is told not to.
+TEST(UseKernels, Float32IsFloat32UnlessAskedOtherwise) {
+    auto& context = at::globalContext();
+    context.setAllowTF32CuDNN(true);
+    context.setAllowTF32CuBLAS(true);
+    model::use_kernels({}, at::kCPU);
+    EXPECT_FALSE(context.allowTF32CuDNN());
+    EXPECT_FALSE(context.allowTF32CuBLAS());
+    model::TrainerSettings settings;
+    settings.tf32 = true;
+    EXPECT_THROW(model::use_kernels(settings, at::kCPU), Error);
+}
