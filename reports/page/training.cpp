@@ -2,29 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <fstream>
-
 #include "base/files/lock.hpp"
 #include "reports/page/curves.hpp"
+#include "reports/sweep/configuration.hpp"
 
 namespace actformer::reports {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// What a training's configuration says of a key, in a line "key: value  # what it means"; empty where it is none.
-std::string said(const fs::path& config, const std::string& key) {
-    std::error_code unread;
-    if (!fs::is_regular_file(config, unread)) return {};
-    std::ifstream file(config);
-    for (std::string line; std::getline(file, line);)
-        if (line.starts_with(key + ": ")) {
-            const auto value = line.substr(key.size() + 2);
-            return value.substr(0, value.find_first_of(" #"));
-        }
-    return {};
-}
 
 std::uint64_t last_epoch(const fs::path& folder) {
     const auto epochs = read_curves(folder);
@@ -33,9 +18,7 @@ std::uint64_t last_epoch(const fs::path& folder) {
 
 /// Of a training that nobody works on.
 void tell_whether_done(const fs::path& folder, MeasuredRow& row) {
-    const auto words = said(folder / "config.yaml", "epochs");
-    std::uint64_t epochs = 0;
-    std::from_chars(words.data(), words.data() + words.size(), epochs);
+    const auto epochs = in_configuration(folder / "config.yaml", "epochs", std::uint64_t{0});
     const auto last = last_epoch(folder);
     row.status = last < epochs ? "stopped" : "done";
     if (last < epochs)
@@ -46,7 +29,7 @@ void tell_whether_done(const fs::path& folder, MeasuredRow& row) {
 }  // namespace
 
 std::optional<MeasuredRow> training_row(const fs::path& folder) {
-    const auto model = said(folder / "config.yaml", "model");
+    const auto model = in_configuration(folder / "config.yaml", "model", std::string());
     const bool goes_on = FileLock::is_held(folder / "lock");
     if (model.empty() || !(has_log(folder) || goes_on)) return {};
     MeasuredRow row;

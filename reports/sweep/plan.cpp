@@ -1,7 +1,5 @@
 #include "reports/sweep/plan.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "base/process/shipped.hpp"
 #include "eval/run_weights.hpp"
 #include "ingest/dataset/dataset.hpp"
+#include "reports/sweep/configuration.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -37,12 +36,7 @@ double number_in(const Settings& set, const char* key, double otherwise) {
 
 /// What the configuration tells, unless `set` says it; else `otherwise`.
 double number_in(const Settings& set, const fs::path& config, const char* key, double otherwise) {
-    if (std::error_code ignored; !fs::is_regular_file(config, ignored)) return number_in(set, key, otherwise);
-    try {
-        otherwise = YAML::LoadFile(config.string())[key].as<double>(otherwise);
-    } catch (const YAML::Exception&) {
-    }
-    return number_in(set, key, otherwise);
+    return number_in(set, key, in_configuration(config, key, otherwise));
 }
 
 /// Windows a second that trainings of each kind were seen to take on two cores, by the width of their networks.

@@ -270,11 +270,10 @@ Node load(const std::filesystem::path& file) {
 Sweep read_sweep(const std::filesystem::path& file) {
     const Place place{file.string()};
     const auto root = load(file);
-    if (!root.IsMap())
-        throw Error("{}: holds no sweep: name, datasets, recognisers, base, rows", file.string());
+    const std::vector<std::string> known{"name", "datasets", "recognisers", "base", "tables", "rows"};
+    if (!root.IsMap()) throw Error("{}: holds no sweep: {}", file.string(), fmt::join(known, ", "));
     for (const auto& item : root) {
         const auto key = item.first.Scalar();
-        const std::vector<std::string> known{"name", "datasets", "recognisers", "base", "tables", "rows"};
         if (std::ranges::find(known, key) == known.end())
             place.fail(item.first, fmt::format("a sweep has no key '{}'{}; it takes {}", key,
                                                suggestion(key, known), fmt::join(known, ", ")));
