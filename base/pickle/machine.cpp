@@ -128,7 +128,7 @@ bool PickleMachine::numbers(unsigned char code) {
 /// Two's complement, the lowest byte first.
 std::int64_t PickleMachine::whole_of(std::string_view bytes) const {
     if (bytes.size() > 8) maker_.fail("a whole number of more than 64 bits");
-    std::uint64_t bits = !bytes.empty() && bytes.back() < 0 ? ~std::uint64_t{0} : 0;
+    std::uint64_t bits = !bytes.empty() && static_cast<signed char>(bytes.back()) < 0 ? ~std::uint64_t{0} : 0;
     for (auto i = bytes.size(); i-- > 0;) bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
     return static_cast<std::int64_t>(bits);
 }
