@@ -10,8 +10,10 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <string_view>
 
 #include "base/error.hpp"
+#include "base/process/processor_level.hpp"
 #include "base/threads/thread.hpp"
 
 namespace actformer::model {
@@ -48,8 +50,12 @@ std::string openblas_core() {
     return name ? name() : "";
 }
 
-bool has_wide_vectors() {
-    return __builtin_cpu_supports("avx2") != 0;
+/// What OpenBLAS calls a processor with the wide vectors that this one has and `core` has not; empty for others.
+std::string_view newer_core(std::string_view core) {
+    if (core != "Prescott" && core != "Nehalem") return {};
+    for (const auto& level : processor_levels())
+        if (level.runs && level.name != "v2") return level.openblas;
+    return {};
 }
 
 }  // namespace
@@ -62,15 +68,14 @@ BlasCheck check_blas() {
     auto speed = fmt::format("libtorch {}, {} thread{}, matrix products at {:.0f} GFLOP/s", TORCH_VERSION,
                              at::get_num_threads(), at::get_num_threads() == 1 ? "" : "s", check.gflops);
     const bool reference = check.library.find("/blas/libblas") != std::string::npos;
-    const bool old_core = has_wide_vectors() && (check.core == "Prescott" || check.core == "Nehalem");
-    check.slow = reference || old_core;
+    const auto newer = newer_core(check.core);
+    check.slow = reference || !newer.empty();
     if (reference)
         check.line =
             speed + ": " + check.library + " is the slow reference BLAS; install libopenblas0-pthread";
-    else if (old_core)
-        check.line =
-            fmt::format("{}: OpenBLAS takes this processor for a {}; set OPENBLAS_CORETYPE={}", speed,
-                        check.core, __builtin_cpu_supports("avx512f") != 0 ? "SkylakeX" : "Haswell");
+    else if (!newer.empty())
+        check.line = fmt::format("{}: OpenBLAS takes this processor for a {}; set OPENBLAS_CORETYPE={}",
+                                 speed, check.core, newer);
     else
         check.line = speed + (check.core.empty() ? "" : ", OpenBLAS for " + check.core);
     return check;
