@@ -159,19 +159,22 @@ std::optional<MethodTimes> ask_method_peer(const BenchTrainOptions& options) {
 }
 
 void print_method(const BenchTrainOptions& options, const MethodTimes& ours,
-                  const std::optional<MethodTimes>& peer, const std::string& machine) {
+                  const std::optional<MethodTimes>& peer, const model::MethodSpeed& test) {
     constexpr std::array<const char*, 4> rows{"step", "step, processors", "100 motions",
                                               "100 motions, processors"};
     if (options.json) {
-        Json out{{"machine", machine}, {"method", options.method}, {"threads", options.request.threads}};
+        Json out{{"machine", test.machine()},
+                 {"device", test.device()},
+                 {"method", options.method},
+                 {"threads", options.request.threads}};
         for (std::size_t i = 0; i < rows.size(); ++i) {
             out[rows[i]] = {{"seconds", ours[i]}};
             if (peer) out[rows[i]].update({{"pytorch", (*peer)[i]}, {"ratio", (*peer)[i] / ours[i]}});
         }
         return fmt::print("{}\n", out.dump(2));
     }
-    say("{}\n{:<24} {:>10} {:>15} {:>7}\n", machine, "seconds, " + options.method, "actformer",
-        "PyTorch, eager", "ratio");
+    say("{}, on {}\n{:<24} {:>10} {:>15} {:>7}\n", test.machine(), test.device(),
+        "seconds, " + options.method, "actformer", "PyTorch, eager", "ratio");
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (peer)
             say("{:<24} {:>10.3f} {:>15.3f} {:>7.2f}\n", rows[i], ours[i], (*peer)[i], (*peer)[i] / ours[i]);
@@ -192,8 +195,7 @@ void run_method(const BenchTrainOptions& options) {
         for (std::size_t i = 0; now && i < now->size(); ++i) (*peer)[i] = std::min((*peer)[i], (*now)[i]);
     }
     const auto &step = test.step(), &generation = test.generation();
-    print_method(options, {step.wall, step.processors, generation.wall, generation.processors}, peer,
-                 test.machine());
+    print_method(options, {step.wall, step.processors, generation.wall, generation.processors}, peer, test);
 }
 
 }  // namespace

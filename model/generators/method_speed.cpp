@@ -6,9 +6,11 @@
 
 #include "base/process/usage.hpp"
 #include "kernels/sampler.hpp"
+#include "model/generators/generator_settings.hpp"
 #include "model/generators/method.hpp"
 #include "model/nn/blas.hpp"
 #include "model/train/learner.hpp"
+#include "model/train/training.hpp"
 
 namespace actformer::model {
 namespace {
@@ -37,6 +39,14 @@ MotionSpec timed_spec(const MethodSpeedRequest& request) {
     return {ingest::Representation::limb, ingest::ntu25(), request.persons, request.classes, "speed"};
 }
 
+/// Of libtorch, as a training takes it.
+at::Device device_of(const Config& config) {
+    const auto settings = generator_trainer_settings(config);
+    const auto device = torch_device(settings.device);
+    use_kernels(settings, device);
+    return device;
+}
+
 /// Clips of smooth numbers, of every class in turn.
 kernels::ClipStore clips_of(const MethodSpeedRequest& request, const MotionSpec& spec,
                             kernels::Device& device) {
@@ -60,6 +70,8 @@ struct MethodSpeed::Parts {
     const Method& method;
     Config config;
     MotionSpec spec;
+    at::Device torch;
+    std::string device_name;  ///< of it
     kernels::Device device;
     kernels::ClipStore clips;
     Processes processes;
@@ -74,10 +86,18 @@ struct MethodSpeed::Parts {
           method(method_named(wanted.method, "--method")),
           config(config_of(wanted)),
           spec(timed_spec(wanted)),
+          torch(device_of(config)),
+          device_name(torch.str()),
           clips(clips_of(wanted, spec, device)),
-          learner(method.learner(config, spec, {clips, at::kCPU, processes})),
-          maker(method.maker(config, spec, learner->weights(), "cpu")),
+          learner(method.learner(config, spec, {clips, torch, processes})),
+          maker(method.maker(config, spec, learner->weights(), device_name)),
           machine(check_blas().line) {}
+
+    /// The device may still be at work when a step returns: reading the sums waits for it.
+    void take_step() {
+        learner->step(steps++, 1);
+        learner->sums().to(at::kCPU);
+    }
 
     void generate() {
         for (std::uint32_t i = 0; i * maker->batch() < motions_timed; ++i)
@@ -88,7 +108,7 @@ struct MethodSpeed::Parts {
 MethodSpeed::MethodSpeed(const MethodSpeedRequest& request) {
     set_threads(request.threads);
     parts_ = std::make_unique<Parts>(request);
-    parts_->learner->step(parts_->steps++, 1);  // what is made once is made
+    parts_->take_step();  // what is made once is made
     parts_->generate();
 }
 
@@ -97,7 +117,7 @@ MethodSpeed::~MethodSpeed() = default;
 void MethodSpeed::run(int rounds) {
     auto& p = *parts_;
     for (int i = 0; i < rounds; ++i) {
-        time_into(p.step, [&] { p.learner->step(p.steps++, 1); });
+        time_into(p.step, [&] { p.take_step(); });
         time_into(p.generation, [&] { p.generate(); });
     }
 }
@@ -112,6 +132,10 @@ const Seconds& MethodSpeed::generation() const {
 
 const std::string& MethodSpeed::machine() const {
     return parts_->machine;
+}
+
+const std::string& MethodSpeed::device() const {
+    return parts_->device_name;
 }
 
 }  // namespace actformer::model
