@@ -89,7 +89,7 @@ class Sampler {
     /// `clips` must outlive the sampler.
     Sampler(const ClipStore& clips, const SamplerOptions& options);
 
-    /// Starts to fill `into` with batch `index` and returns at once; into.map() waits for it.
+    /// Starts to fill `into` with batch `index` and returns at once; into.map() waits for it. In memory it is full then.
     void draw(std::uint64_t index, Batch& into) const;
 
   private:
