@@ -58,6 +58,9 @@ std::vector<double> filter_points(std::span<const double, 9> taps, std::uint32_t
 }
 
 Stgcn::Stgcn(Device& device, const Tiles& tiles) : device_(&device), tiles_(tiles) {
+    if (tiles.block() % tiles.filter_vec != 0)
+        throw Error("tiles: filters of {} numbers do not divide rows of blocks of {}", tiles.filter_vec,
+                    tiles.block());
     enter_ = device.vector_kernel("graph", "enter", tiles.vec);
     gather_ = device.vector_kernel("graph", "gather", tiles.vec);
     pool_ = device.vector_kernel("graph", "pool", tiles.vec);

@@ -62,6 +62,7 @@ constexpr std::uint32_t strided(std::uint32_t frames, std::uint32_t stride) {
 /// The kernels, built for one device and one choice of tiles. Every call enqueues and returns at once.
 class Stgcn {
   public:
+    /// Throws Error where filters would reach beyond a row: tiles.filter_vec must divide a block.
     Stgcn(Device& device, const Tiles& tiles);
 
     Device& device() const { return *device_; }

@@ -202,3 +202,11 @@ TEST(Peak, IsANumber) {
     Device device;
     EXPECT_GT(measure_peak(device, 4, 1), 1e6);
 }
+
+// As a tuner would try them on a GPU.
+TEST(Stgcn, RefusesFiltersThatReachBeyondARow) {
+    Device device;
+    EXPECT_THROW(Stgcn(device, Tiles{1, 16, 1, 1, 64, true, 2, 64}), Error);
+    EXPECT_THROW(Stgcn(device, Tiles{2, 8, 1, 1, 64, true, 4, 64}), Error);
+    EXPECT_NO_THROW(Stgcn(device, Tiles{4, 8, 1, 1, 64, true, 4, 64}));
+}
