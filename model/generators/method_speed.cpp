@@ -71,7 +71,6 @@ struct MethodSpeed::Parts {
     Config config;
     MotionSpec spec;
     at::Device torch;
-    std::string device_name;  ///< of it
     kernels::Device device;
     kernels::ClipStore clips;
     Processes processes;
@@ -87,10 +86,9 @@ struct MethodSpeed::Parts {
           config(config_of(wanted)),
           spec(timed_spec(wanted)),
           torch(device_of(config)),
-          device_name(torch.str()),
           clips(clips_of(wanted, spec, device)),
           learner(method.learner(config, spec, {clips, torch, processes})),
-          maker(method.maker(config, spec, learner->weights(), device_name)),
+          maker(method.maker(config, spec, learner->weights(), torch.str())),
           machine(check_blas().line) {}
 
     /// The device may still be at work when a step returns: reading the sums waits for it.
@@ -134,8 +132,8 @@ const std::string& MethodSpeed::machine() const {
     return parts_->machine;
 }
 
-const std::string& MethodSpeed::device() const {
-    return parts_->device_name;
+std::string MethodSpeed::device() const {
+    return parts_->torch.str();
 }
 
 }  // namespace actformer::model

@@ -32,7 +32,7 @@ class MethodSpeed {
     const Seconds& step() const;
     const Seconds& generation() const;
     const std::string& machine() const;  ///< libtorch, threads and products a second, in a line
-    const std::string& device() const;   ///< of libtorch, where it trains and generates
+    std::string device() const;          ///< of libtorch, where it trains and generates
 
   private:
     struct Parts;
