@@ -3,10 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
+#include <string>
 
 #include "base/error.hpp"
 #include "base/process/process.hpp"
+#include "base/threads/parallel.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
@@ -96,8 +99,15 @@ std::vector<std::string> again(const SweepOptions& options, const reports::Job& 
             job.id};
 }
 
+/// Jobs that run at once have the processor's threads between them. Whoever sets OMP_NUM_THREADS is left alone.
+void share_threads(unsigned jobs) {
+    if (jobs > 1)
+        ::setenv("OMP_NUM_THREADS", std::to_string(std::max(1U, thread_count(0) / jobs)).c_str(), 0);
+}
+
 void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const SweepOptions& options,
               const SweepJobs& jobs) {
+    share_threads(options.jobs);
     const auto status =
         reports::run_plan(sweep, plan, {options.out, jobs, options.jobs}, told_events(options.out));
     if (options.json)
@@ -157,7 +167,7 @@ void add_sweep(CLI::App& app) {
         ->type_name("SWEEP.yaml");
     lists_shipped(command, "reports/sweeps");
     command->add_option("-o,--out", options->out, "Folder of all it makes")->required()->type_name("DIR");
-    command->add_option("--jobs", options->jobs, "Jobs at once")
+    command->add_option("--jobs", options->jobs, "Jobs at once, with the processor's threads between them")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     command->add_flag("--dry-run", options->dry_run,

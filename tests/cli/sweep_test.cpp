@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <set>
+#include <thread>
+
 #include "tests/support/paths.hpp"
 #include "tests/support/replaced.hpp"
 #include "tests/support/sweep.hpp"
@@ -58,6 +61,22 @@ TEST_F(Sweep, DoesSharedWorkOnce) {
     write_file(dir / "g.yaml", "model: generator\nwidth: 64\n");
     ASSERT_EQ(sweep("--jobs 3").exit, 0);
     EXPECT_EQ(calls().size(), 15U) << "another configuration makes other generators, and nothing else";
+}
+
+TEST_F(Sweep, JobsAtOnceShareTheThreads) {
+    sweep_file("  full: {}\n");
+    const auto threads_with = [&](const std::string& environment, const std::string& jobs) {
+        fs::remove_all(at("out"));
+        fs::remove(at("threads"));
+        const auto result = run_command("env " + environment + " " + command("--jobs " + jobs));
+        EXPECT_EQ(result.exit, 0) << result.output;
+        const auto threads = lines_of("threads");
+        return std::set<std::string>(threads.begin(), threads.end());
+    };
+    const auto half = std::to_string(std::max(1U, std::thread::hardware_concurrency() / 2));
+    EXPECT_EQ(threads_with("-u OMP_NUM_THREADS", "1"), std::set<std::string>{"all"});
+    EXPECT_EQ(threads_with("-u OMP_NUM_THREADS", "2"), std::set<std::string>{half});
+    EXPECT_EQ(threads_with("OMP_NUM_THREADS=3", "2"), std::set<std::string>{"3"}) << "as the user says";
 }
 
 TEST_F(Sweep, TrainsEverySeed) {

@@ -13,12 +13,13 @@
 
 namespace actformer::test {
 
-/// Notes its call (calls) and when it begins and ends (order), makes what it was asked for, and fails where the file "broken" holds a word of the call.
+/// Notes its call (calls), OpenMP's threads (threads) and when it begins and ends (order), makes what it was asked for, and fails where the file "broken" holds a word of the call.
 inline constexpr const char* stand_in =
     "#!/bin/sh\n"
     "here=$(dirname \"$0\")\n"
     "call=$*\n"
     "echo \"$call\" >> \"$here/calls\"\n"
+    "echo \"${OMP_NUM_THREADS:-all}\" >> \"$here/threads\"\n"
     "echo \"begins: $call\" >> \"$here/order\"\n"
     "sleep \"$(cat \"$here/pause\" 2>/dev/null || echo 0)\"\n"
     "if [ -e \"$here/broken\" ] && echo \"$@\" | grep -q \"$(cat \"$here/broken\")\"; then\n"
