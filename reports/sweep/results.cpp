@@ -54,6 +54,40 @@ Json data_json(const SweepDataset& data) {
     return {{"path", data.path}};
 }
 
+/// What jobs that are done took. Of some nobody knows how much there was to do.
+struct Taken {
+    double seconds = 0, jobs = 0;
+    double known_seconds = 0, known_work = 0;
+
+    /// As long as they took a piece of work; each of them, where that is not known.
+    std::optional<double> seconds_for(double amount) const {
+        if (known_work > 0 && amount > 0) return known_seconds / known_work * amount;
+        if (jobs > 0) return seconds / jobs;
+        return {};
+    }
+};
+
+template <typename Counts>
+Taken taken_by(const Plan& plan, const std::vector<JobStatus>& status, Counts counts) {
+    Taken all;
+    for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+        const auto& job = plan.jobs[i];
+        if (!status[i].seconds || !counts(job)) continue;
+        all.seconds += *status[i].seconds;
+        ++all.jobs;
+        if (job.amount <= 0) continue;
+        all.known_seconds += *status[i].seconds;
+        all.known_work += job.amount;
+    }
+    return all;
+}
+
+/// A training's configuration, which says the method and its size; empty for other work.
+std::string configuration_of(const Job& job) {
+    const auto* training = std::get_if<TrainingWork>(&job.work);
+    return training ? training->config : "";
+}
+
 }  // namespace
 
 const char* name_of(JobState state) {
@@ -122,16 +156,12 @@ void write_results(const Sweep& sweep, const Plan& plan, const fs::path& out) {
 
 std::optional<double> estimate(const Plan& plan, const std::vector<JobStatus>& status, std::size_t job) {
     const auto& asked = plan.jobs[job];
-    double seconds = 0, work = 0;
-    std::size_t jobs = 0;
-    for (std::size_t i = 0; i < plan.jobs.size(); ++i)
-        if (plan.jobs[i].kind == asked.kind && status[i].seconds) {
-            seconds += *status[i].seconds;
-            work += plan.jobs[i].amount;
-            ++jobs;
-        }
-    if (jobs > 0 && work > 0 && asked.amount > 0) return seconds / work * asked.amount;
-    if (jobs > 0) return seconds / static_cast<double>(jobs);
+    const auto alike = [&](const Job& other) {
+        return other.kind == asked.kind && configuration_of(other) == configuration_of(asked);
+    };
+    const auto of_its_kind = [&](const Job& other) { return other.kind == asked.kind; };
+    if (const auto seconds = taken_by(plan, status, alike).seconds_for(asked.amount)) return seconds;
+    if (const auto seconds = taken_by(plan, status, of_its_kind).seconds_for(asked.amount)) return seconds;
     if (asked.amount > 0 && asked.pace > 0)
         return 2 + asked.amount / asked.pace;  // a program starts and ends, too
     return {};

@@ -44,8 +44,8 @@ nlohmann::ordered_json results(const Sweep& sweep, const Plan& plan, const std::
 /// Writes OUT/results.json.
 void write_results(const Sweep& sweep, const Plan& plan, const std::filesystem::path& out);
 
-/// Seconds that a job may take: those of done jobs of its kind in OUT by their work, else a rough rate of two cores; none where
-/// nothing is known.
+/// Seconds that a job may take: those of done trainings of its configuration, or jobs of its kind, by their work, else a rough rate of
+/// two cores; none where nothing is known.
 std::optional<double> estimate(const Plan& plan, const std::vector<JobStatus>& statuses, std::size_t job);
 
 }  // namespace actformer::reports
