@@ -82,7 +82,7 @@ SpeedTest::SpeedTest(const SpeedRequest& request) {
     parts_->machine = check_blas().line;
     parts_->gan.step_discriminator(parts_->real, parts_->labels,
                                    parts_->draw++);  // what is made once is made
-    parts_->gan.step_generator(parts_->labels, parts_->draw++);
+    parts_->gan.step_generator(parts_->real, parts_->labels, parts_->draw++);
 }
 
 SpeedTest::~SpeedTest() = default;
@@ -91,7 +91,7 @@ void SpeedTest::run(int rounds) {
     auto& p = *parts_;
     for (int i = 0; i < rounds; ++i) {
         time_into(p.discriminator_step, [&] { p.gan.step_discriminator(p.real, p.labels, p.draw++); });
-        time_into(p.generator_step, [&] { p.gan.step_generator(p.labels, p.draw++); });
+        time_into(p.generator_step, [&] { p.gan.step_generator(p.real, p.labels, p.draw++); });
         time_into(p.generation, [&] {
             for (std::uint32_t n = 0; n < motions_timed / MotionMaker::chunk; ++n)
                 p.maker.make(static_cast<std::uint32_t>(p.draw++ % p.request.classes), n, p.request.frames);

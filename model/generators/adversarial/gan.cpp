@@ -3,6 +3,7 @@
 #include <ATen/core/grad_mode.h>
 
 #include "base/error.hpp"
+#include "model/generators/adversarial/spread.hpp"
 #include "model/nn/autocast.hpp"
 #include "model/nn/module_arrays.hpp"
 #include "model/nn/tensor_array.hpp"
@@ -76,16 +77,18 @@ void Gan::step_discriminator(const at::Tensor& real, const at::Tensor& labels, s
     sums_.narrow(0, 0, 3).add_(discriminator_parameters_.remarks());
 }
 
-void Gan::step_generator(const at::Tensor& labels, std::uint64_t draw) {
+void Gan::step_generator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw) {
     const auto z = latent(labels, draw);
     generator_parameters_.zero_gradients();
     discriminator_parameters_.want_gradients(false);
-    at::Tensor scores;
+    at::Tensor scores, made;
     {
         const Autocast reduced(settings_.bf16);
-        scores = networks_.discriminator->forward(augmented(fake(z, labels), draw), labels).to(at::kFloat);
+        made = fake(z, labels);
+        scores = networks_.discriminator->forward(augmented(made, draw), labels).to(at::kFloat);
     }
-    const auto loss = -scores.mean();
+    auto loss = -scores.mean();
+    if (settings_.spread > 0) loss = loss + settings_.spread * spread_loss(real, made, labels);
     loss.backward();
     discriminator_parameters_.want_gradients(true);
     generator_parameters_.remarks().copy_(loss.detach().view({1}));

@@ -25,7 +25,8 @@ class Gan {
 
     /// One step of the discriminator: real (batch, P*D, T, K) against as many fake motions of the same labels (batch) int64. What is drawn is a function of the seed and `draw`.
     void step_discriminator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw);
-    void step_generator(const at::Tensor& labels, std::uint64_t draw);
+    /// One step of the generator, for as many motions of these labels; `real` are motions of them.
+    void step_generator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw);
 
     /// Steps from now on go at this share of the rates.
     void set_rate_share(double share) { rate_share_ = share; }

@@ -17,6 +17,12 @@ const KeyTable<GanSettings>& table() {
             .add(&Settings::loss, {.name = "loss",
                                    .meaning = "hinge (public tools) or wasserstein (equation 1 of ActFormer)",
                                    .choices = {"wasserstein", "hinge"}})
+            .add(&Settings::spread,
+                 {.name = "spread",
+                  .meaning =
+                      "weight of a loss that keeps motions of a class as far apart as real ones; 0 for none",
+                  .least = 0,
+                  .most = 1000})
             .add(&Settings::generator_rate,
                  {.name = "generator_rate", .meaning = "learning rate", .least = 0, .most = 1})
             .add(&Settings::discriminator_rate,

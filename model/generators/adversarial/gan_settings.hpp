@@ -22,7 +22,9 @@ struct GanSettings : AugmentationSettings {
     Loss loss = Loss::hinge;
     double generator_rate = 2e-4, discriminator_rate = 2e-4;
     double beta1 = 0, beta2 = 0.999;  ///< of Adam
-    double average = 0;               ///< decay a step of the generator's EMA; 0 keeps none
+    double spread =
+        0;  ///< weight of the loss that keeps motions of a class as far apart as real ones; 0: none
+    double average = 0;  ///< decay a step of the generator's EMA; 0 keeps none
     bool bf16 = false;
 
     AdamSettings generator_adam() const { return {generator_rate, beta1, beta2}; }

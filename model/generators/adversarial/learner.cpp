@@ -37,14 +37,14 @@ std::uint64_t GanLearner::windows_a_step() const {
 void GanLearner::step(std::uint64_t step, double rate_share) {
     const auto steps = std::uint64_t{settings_.discriminator_steps};
     gan_.set_rate_share(rate_share);
-    at::Tensor labels;
+    at::Tensor real, labels;
     for (std::uint64_t i = 0; i < steps; ++i) {
         const auto windows = feed_.batch(step * steps + i);
         labels = labels_of(windows, device_);
-        const auto real = values_of(windows, channels_, settings_.frames, nodes_, device_);
+        real = values_of(windows, channels_, settings_.frames, nodes_, device_);
         gan_.step_discriminator(real, labels, step * (steps + 1) + i);
     }
-    gan_.step_generator(labels, step * (steps + 1) + steps);
+    gan_.step_generator(real, labels, step * (steps + 1) + steps);
 }
 
 Measures GanLearner::losses(const std::vector<double>& sums, std::uint64_t steps) const {

@@ -32,6 +32,7 @@ struct EveryMethod : testing::TestWithParam<std::string> {
              std::map<std::string, std::string>{{"width", "32"},
                                                 {"hidden", "48"},
                                                 {"layers", "2"},
+                                                {"spread", "0.5"},
                                                 {"average", "0.9"}})  // where it has them
             if (config.has(key)) config.override_with(key + "=" + value);
         return config;
