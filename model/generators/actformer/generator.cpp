@@ -2,6 +2,8 @@
 
 #include <ATen/core/grad_mode.h>
 
+#include <cmath>
+
 #include "base/error.hpp"
 #include "model/generators/finish.hpp"
 #include "model/generators/graph/node_convolution.hpp"
@@ -15,6 +17,19 @@ at::Tensor tensor_of(const HopMatrix& matrix, at::ScalarType type) {
     auto values = matrix.values;
     return at::from_blob(values.data(), {matrix.hops, matrix.outputs, matrix.inputs}, at::kFloat)
         .to(type, false, true);
+}
+
+/// (T, T + 2 * beyond): for each of T frames a Gaussian of `deviation` frames, up to four deviations away, over them and the
+/// `beyond` before and behind them.
+at::Tensor gaussians(std::int64_t t, std::int64_t beyond, double deviation, const at::TensorOptions& as) {
+    const auto frames = at::arange(t + 2 * beyond, as.requires_grad(false)) / deviation;
+    const auto apart = (frames.unsqueeze(0) - frames.slice(0, beyond, beyond + t).unsqueeze(1)).square();
+    return apart.mul(-0.5).exp() * apart.le(16);
+}
+
+/// Rows whose numbers add up to 1.
+at::Tensor means(const at::Tensor& weights) {
+    return weights / weights.sum(1, true);
 }
 
 GeneratorSettings checked(GeneratorSettings settings) {
@@ -127,11 +142,9 @@ at::Tensor Generator::fused_transformed(at::Tensor x) const {
 /// of use before.
 at::Tensor Generator::smoothed(const at::Tensor& x) const {
     if (settings_.smooth == 0) return x;
-    const auto frames = at::arange(x.size(2), x.options().requires_grad(false)) / settings_.smooth;
-    const auto apart = (frames.unsqueeze(0) - frames.unsqueeze(1)).square();
-    const auto weights = apart.mul(-0.5).exp() * apart.le(16);
+    const auto weights = gaussians(x.size(2), 0, settings_.smooth, x.options());
     weights.select(1, 0).zero_();
-    return at::matmul(weights / weights.sum(1, true), x);
+    return at::matmul(means(weights), x);
 }
 
 /// x (N, S, T+1, W), S the tokens a frame.
@@ -147,6 +160,26 @@ at::Tensor Generator::motion(const at::Tensor& x) const {
     const auto finished = this->finished(poses(normal));  // (N, P, T, K, D)
     return finished.permute({0, 1, 4, 2, 3})
         .reshape({n, settings_.persons * settings_.numbers(), t, settings_.nodes()});
+}
+
+/// `motion` (N, P*D, T, K) with each body moved to where its neighbouring frames' mean is, weighed by a Gaussian. At either end the path
+/// goes on as its point reflection, so that a straight one stays as it is.
+at::Tensor Generator::with_smooth_root(const at::Tensor& motion) const {
+    const auto t = motion.size(2);
+    if (settings_.smooth_root == 0 || t < 2) return motion;
+    const std::int64_t persons = settings_.persons, nodes = settings_.nodes();
+    const auto moving = settings_.representation.moving(settings_.nodes());
+    const auto bodies = motion.view({motion.size(0), persons, settings_.numbers(), t, nodes});
+    const auto path = bodies.select(-1, moving.root);  // (N, P, D, T)
+    const auto beyond = std::min(t - 1, static_cast<std::int64_t>(std::ceil(4 * settings_.smooth_root)));
+    const auto before = 2 * path.slice(-1, 0, 1) - path.slice(-1, 1, 1 + beyond).flip(-1);
+    const auto behind = 2 * path.slice(-1, t - 1) - path.slice(-1, t - 1 - beyond, t - 1).flip(-1);
+    const auto weights = means(gaussians(t, beyond, settings_.smooth_root, path.options()));
+    const auto moved = at::matmul(at::cat({before, path, behind}, -1), weights.t()) - path;
+    const std::int64_t first = moving.first, count = moving.count;
+    const auto of_all = at::constant_pad_nd(moved.unsqueeze(-1).expand({-1, -1, -1, -1, count}),
+                                            {first, nodes - first - count});
+    return (bodies + of_all).view(motion.sizes());
 }
 
 /// x (N, T, nodes, in): every hop's linear map, then the fixed sums over nodes. Spectral norms and sums make numbers smaller layer
@@ -202,8 +235,9 @@ at::Tensor Generator::forward(const at::Tensor& latent, const at::Tensor& labels
                     settings_.prior.channels);
     if (t > settings_.frames)
         throw Error("{} frames: the generator was made for at most {}", t, settings_.frames);
-    return motion(smoothed(takes_fused_path(latent) ? fused_transformed(fused_tokens(latent, labels))
-                                                    : transformed(tokens(latent, labels))));
+    return with_smooth_root(
+        motion(smoothed(takes_fused_path(latent) ? fused_transformed(fused_tokens(latent, labels))
+                                                 : transformed(tokens(latent, labels)))));
 }
 
 }  // namespace actformer::model

@@ -40,6 +40,7 @@ class Generator : public GanGenerator {
     at::Tensor fused_transformed(at::Tensor x) const;
     at::Tensor smoothed(const at::Tensor& x) const;
     at::Tensor motion(const at::Tensor& x) const;
+    at::Tensor with_smooth_root(const at::Tensor& motion) const;
     at::Tensor positions() const;
     at::Tensor block(const at::Tensor& x, const std::string& prefix) const;
     at::Tensor attention(const at::Tensor& x, const std::string& prefix) const;

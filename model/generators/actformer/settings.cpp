@@ -52,6 +52,7 @@ void check(const GeneratorSettings& s) {
     if (s.prior.streams != 1 && s.prior.streams != s.persons)
         throw Error("generator: {} latents for {} persons", s.prior.streams, s.persons);
     if (!(s.smooth >= 0)) throw Error("generator: smooth: {} frames; 0 or more", s.smooth);
+    if (!(s.smooth_root >= 0)) throw Error("generator: smooth_root: {} frames; 0 or more", s.smooth_root);
 }
 
 void check(const DiscriminatorSettings& s) {
@@ -85,6 +86,7 @@ std::vector<Key> network_keys() {
         {"body", std::string("transformer"), "from token to pose: transformer (linear) or graphconv", 0, 0,
          body_names},
         {"smooth", 0.0, "frames: deviation of a Gaussian over the tokens before the head; 0 for none", 0, 60},
+        {"smooth_root", 0.0, "frames: deviation of a Gaussian over where the body is; 0 for none", 0, 60},
         {"d_width", Number{32}, "channels of the discriminator's first layer", 1, 1024},
         {"d_differences", Number{1},
          "over frames, that the discriminator sees: 1 velocities, 2 accelerations too", 1, 2},
@@ -117,6 +119,7 @@ GeneratorSettings generator_settings(const Config& config, ingest::Representatio
     s.interaction = named<Interaction>(config, "interaction", interaction_names);
     s.body = named<Body>(config, "body", body_names);
     s.smooth = config.get<double>("smooth");
+    s.smooth_root = config.get<double>("smooth_root");
     check(s);
     return s;
 }

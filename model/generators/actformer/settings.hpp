@@ -45,8 +45,9 @@ struct GeneratorSettings {
     PositionsStart positions_start = PositionsStart::normal;  ///< of tables that are trained
     Interaction interaction = Interaction::iformer;
     Body body = Body::transformer;
-    double smooth =
-        0;  ///< frames: deviation of a Gaussian over the tokens before the head; 0 for none, as published
+    /// Frames: deviations of a Gaussian over the tokens before the head, and of one over where the body is; 0 for none, as
+    /// published.
+    double smooth = 0, smooth_root = 0;
 
     std::uint32_t nodes() const { return static_cast<std::uint32_t>(parents.size()); }
     std::uint32_t numbers() const { return representation.numbers(); }  ///< of a node

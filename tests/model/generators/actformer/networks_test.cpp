@@ -113,6 +113,15 @@ std::vector<Networks> switched() {
         n.g.positions_start = PositionsStart::sinusoids;
     });
     add(2, [](Networks& n) { n.g.smooth = 1.5; });
+    add(2, [](Networks& n) { n.g.smooth_root = 2; });
+    add(1, [](Networks& n) {
+        n.g.smooth_root = 30;
+        n.g.representation = ingest::Representation::rot6d;
+    });
+    add(2, [](Networks& n) {
+        n.g.smooth_root = 1.5;
+        n.g.representation = ingest::Representation::xyz;
+    });
     add(2, [](Networks& n) {
         n.g.smooth = 3;
         n.g.interaction = Interaction::concat;
@@ -398,6 +407,7 @@ TEST_F(ActformerNetworks, AgreeWithNumPy) {
             {"interaction", interactions[static_cast<int>(gs.interaction)]},
             {"body", bodies[static_cast<int>(gs.body)]},
             {"smooth", gs.smooth},
+            {"smooth_root", gs.smooth_root},
             {"differences", ds.differences},
             {"gain", ds.difference_gain},
             {"d_persons", persons_in[static_cast<int>(ds.persons_in)]},

@@ -186,7 +186,30 @@ def generate(case, net, latent, label):
                 head = net.spectral('head.weight').reshape(joints, numbers, -1)
                 raw = np.einsum('kf,kdf->kd', y, head) + net.w['head.bias'].reshape(joints, numbers)
             out[p * numbers:(p + 1) * numbers, frame] = pose(case, raw).T
+    if case['smooth_root']:
+        root = joints - 1 if case['representation'] == 'rot6d' else 0
+        carried = range(joints) if case['representation'] == 'xyz' else [root]
+        for p in range(persons):
+            for c in range(p * numbers, p * numbers + 3):
+                moved = smooth_path(out[c, :, root], case['smooth_root']) - out[c, :, root]
+                for node in carried:
+                    out[c, :, node] += moved
     return out
+
+
+def smooth_path(path, deviation):
+    """Frames beyond an end mirror those before it through the end's point."""
+    last = len(path) - 1
+    reach = min(last, int(np.ceil(4 * deviation)))
+
+    def at(i):
+        return 2 * path[0] - path[-i] if i < 0 else 2 * path[last] - path[2 * last - i] if i > last else path[i]
+    smooth = []
+    for i in range(last + 1):
+        near = [j for j in range(-reach, last + reach + 1) if abs(j - i) <= 4 * deviation]
+        weights = [np.exp(-((j - i) / deviation) ** 2 / 2) for j in near]
+        smooth.append(sum(w * at(j) for w, j in zip(weights, near)) / sum(weights))
+    return np.array(smooth)
 
 
 def convolve(x, w, stride, pad):
