@@ -165,7 +165,56 @@ void turn_joints_back(const RestSkeleton& skeleton, const Poses<T>& poses, Turn<
     }
 }
 
+/// Positions of a person's joints in `here` frames, (3, frames, joints) and `step` numbers between the axes.
+template <typename T>
+void write_positions(const Turn<T>* turns, std::int64_t joints, T* to, std::int64_t step, std::int64_t here) {
+    for (std::int64_t d = 0; d < axes; ++d)
+        for (std::int64_t t = 0; t < here; ++t)
+            for (std::int64_t j = 0; j < joints; ++j) to[d * step + t * joints + j] = turns[j].position[d][t];
+}
+
+/// Gradients to them, the other way; those to whole rotations are 0, and so are those of the lanes behind `here`.
+template <typename T>
+void read_gradients(const T* from, std::int64_t joints, std::int64_t step, std::int64_t here,
+                    Turn<T>* turns) {
+    for (std::int64_t j = 0; j < joints; ++j) {
+        turns[j].to_whole = {};
+        turns[j].to_position = {};
+        for (std::int64_t d = 0; d < axes; ++d)
+            for (std::int64_t t = 0; t < here; ++t)
+                turns[j].to_position[d][t] = from[d * step + t * joints + j];
+    }
+}
+
+/// Some frames of a person at a time: where they begin, how many they are, their poses and scratch for their turns.
+template <typename T, typename Do>
+void by_frames(const RestSkeleton& skeleton, std::int64_t frames, const T* rotations, const Do& each) {
+    const auto joints = static_cast<std::int64_t>(skeleton.parents.size()), nodes = joints + 1;
+    Poses<T> poses(scratch<T>(MadeRows{}, rotation_numbers * nodes * lanes<T>), nodes);
+    auto* turns = scratch<Turn<T>>(MadeTurns{}, static_cast<std::ptrdiff_t>(joints));
+    for (std::int64_t t = 0; t < frames; t += lanes<T>) {
+        const auto here = std::min<std::int64_t>(lanes<T>, frames - t);
+        poses.read(rotations + t * nodes, frames * nodes, here);
+        turn_joints(skeleton, poses, turns);
+        each(t, here, poses, turns);
+    }
+}
+
 /// All frames of one person.
+template <typename T>
+void person_back(const RestSkeleton& skeleton, std::int64_t frames, const T* rotations, const T* to_positions,
+                 T* to) {
+    const auto joints = static_cast<std::int64_t>(skeleton.parents.size()), nodes = joints + 1;
+    Poses<T> gradients(zeroed_scratch<T>(ToRows{}, rotation_numbers * nodes * lanes<T>), nodes);
+    by_frames(skeleton, frames, rotations,
+              [&](std::int64_t t, std::int64_t here, const auto& poses, auto* turns) {
+                  read_gradients(to_positions + t * joints, joints, frames * joints, here, turns);
+                  turn_joints_back(skeleton, poses, turns, gradients);
+                  gradients.write(to + t * nodes, frames * nodes, here);
+              });
+}
+
+/// The same.
 template <typename T>
 double person_differences(const RestSkeleton& skeleton, std::int64_t frames, const T* made, const T* real,
                           T* to) {
@@ -191,6 +240,37 @@ double person_differences(const RestSkeleton& skeleton, std::int64_t frames, con
 }
 
 }  // namespace
+
+template <typename T>
+void turned_joints(const RestSkeleton& skeleton, const RotationsShape& shape, const T* rotations, T* to,
+                   int threads) {
+    const auto joints = static_cast<std::int64_t>(skeleton.parents.size()), frames = shape.frames;
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::int64_t i = 0; i < shape.samples * shape.persons; ++i)
+        by_frames(skeleton, frames, rotations + i * rotation_numbers * frames * (joints + 1),
+                  [&](std::int64_t t, std::int64_t here, const auto& /*poses*/, const auto* turns) {
+                      write_positions(turns, joints, to + (i * axes * frames + t) * joints, frames * joints,
+                                      here);
+                  });
+}
+
+template <typename T>
+void turned_joints_back(const RestSkeleton& skeleton, const RotationsShape& shape, const T* rotations,
+                        const T* to_positions, T* to, int threads) {
+    const auto joints = static_cast<std::int64_t>(skeleton.parents.size()),
+               of_person = rotation_numbers * shape.frames * (joints + 1);
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::int64_t i = 0; i < shape.samples * shape.persons; ++i)
+        person_back(skeleton, shape.frames, rotations + i * of_person,
+                    to_positions + i * axes * shape.frames * joints, to + i * of_person);
+}
+
+template void turned_joints<float>(const RestSkeleton&, const RotationsShape&, const float*, float*, int);
+template void turned_joints<double>(const RestSkeleton&, const RotationsShape&, const double*, double*, int);
+template void turned_joints_back<float>(const RestSkeleton&, const RotationsShape&, const float*,
+                                        const float*, float*, int);
+template void turned_joints_back<double>(const RestSkeleton&, const RotationsShape&, const double*,
+                                         const double*, double*, int);
 
 template <typename T>
 double joint_differences(const RestSkeleton& skeleton, const RotationsShape& shape, const T* made,

@@ -1,4 +1,4 @@
-// Joints of a rest skeleton, turned by rotations, and how far two motions' joints lie apart. T float or double.
+// Joints of a rest skeleton, turned by rotations: where they are, and how far two motions' joints lie apart. T float or double.
 #pragma once
 
 #include <array>
@@ -21,6 +21,16 @@ struct RestSkeleton {
 struct RotationsShape {
     std::int64_t samples, persons, frames;
 };
+
+/// Positions of the joints from the root, `to` (samples, persons * 3, frames, joints).
+template <typename T>
+void turned_joints(const RestSkeleton& skeleton, const RotationsShape& shape, const T* rotations, T* to,
+                   int threads);
+
+/// From gradients to those positions, the gradients to the rotations, `to` (samples, persons * 6, frames, joints + 1).
+template <typename T>
+void turned_joints_back(const RestSkeleton& skeleton, const RotationsShape& shape, const T* rotations,
+                        const T* to_positions, T* to, int threads);
 
 /// The sum of squared differences between the positions, from the root, of both motions' joints. `to` gets its gradient to `made`.
 template <typename T>

@@ -11,11 +11,57 @@ using torch::autograd::AutogradContext;
 using torch::autograd::Function;
 using torch::autograd::variable_list;
 
+cpu::RotationsShape rotations_shape(const at::Tensor& motion) {
+    return {motion.size(0), motion.size(1) / cpu::rotation_numbers, motion.size(2)};
+}
+
+void check_fits(const cpu::RestSkeleton& skeleton, const at::Tensor& motion) {
+    TORCH_CHECK(motion.dim() == 4 && motion.size(1) % cpu::rotation_numbers == 0 &&
+                    motion.size(3) == static_cast<std::int64_t>(skeleton.parents.size()) + 1,
+                "rotations of another skeleton: ", motion.sizes());
+}
+
+/// What the way back needs beside tensors.
+struct HeldSkeleton : torch::CustomClassHolder {
+    std::shared_ptr<const cpu::RestSkeleton> skeleton;
+
+    explicit HeldSkeleton(std::shared_ptr<const cpu::RestSkeleton> of) : skeleton(std::move(of)) {}
+};
+
+struct JointPositions : Function<JointPositions> {
+    static at::Tensor forward(AutogradContext* context, const at::Tensor& rotations,
+                              const c10::intrusive_ptr<HeldSkeleton>& held) {
+        const auto shape = rotations_shape(rotations);
+        auto positions = at::empty({shape.samples, shape.persons * 3, shape.frames, rotations.size(3) - 1},
+                                   rotations.options());
+        timed("joints", false, rotations, [&](auto number) {
+            using T = decltype(number);
+            cpu::turned_joints<T>(*held->skeleton, shape, in<T>(rotations), in<T>(positions), threads());
+        });
+        context->save_for_backward({rotations});
+        context->saved_data["skeleton"] = c10::IValue::make_capsule(held);
+        return positions;
+    }
+
+    static variable_list backward(AutogradContext* context, variable_list grads) {
+        const auto rotations = context->get_saved_variables()[0], from = grads[0].contiguous();
+        const auto capsule = context->saved_data["skeleton"].toCapsule();
+        const auto& skeleton = *static_cast<const HeldSkeleton&>(*capsule).skeleton;
+        auto gradient = at::empty_like(rotations);
+        timed("joints", true, rotations, [&](auto number) {
+            using T = decltype(number);
+            cpu::turned_joints_back<T>(skeleton, rotations_shape(rotations), in<T>(rotations), in<T>(from),
+                                       in<T>(gradient), threads());
+        });
+        return {gradient, {}};
+    }
+};
+
 /// The gradient comes with the value, for little more than the value alone.
 struct JointError : Function<JointError> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& made, const at::Tensor& real,
                               const cpu::RestSkeleton* skeleton) {
-        const cpu::RotationsShape shape{made.size(0), made.size(1) / cpu::rotation_numbers, made.size(2)};
+        const auto shape = rotations_shape(made);
         auto gradient = at::empty_like(made);
         double sum = 0;
         timed("joints", false, made, [&](auto number) {
@@ -36,12 +82,17 @@ struct JointError : Function<JointError> {
 
 }  // namespace
 
+at::Tensor fused_joint_positions(const std::shared_ptr<const cpu::RestSkeleton>& skeleton,
+                                 const at::Tensor& rotations) {
+    check_fits(*skeleton, rotations);
+    return JointPositions::apply(rotations.contiguous(), c10::make_intrusive<HeldSkeleton>(skeleton));
+}
+
 at::Tensor fused_joint_error(const cpu::RestSkeleton& skeleton, const at::Tensor& made,
                              const at::Tensor& real) {
-    TORCH_CHECK(made.sizes() == real.sizes() && made.dim() == 4 &&
-                    made.size(1) % cpu::rotation_numbers == 0 &&
-                    made.size(3) == static_cast<std::int64_t>(skeleton.parents.size()) + 1,
-                "rotations of another skeleton: ", made.sizes(), " and ", real.sizes());
+    check_fits(skeleton, made);
+    TORCH_CHECK(made.sizes() == real.sizes(), "motions of different sizes: ", made.sizes(), " and ",
+                real.sizes());
     return JointError::apply(made.contiguous(), real.contiguous(), &skeleton);
 }
 

@@ -1,9 +1,11 @@
-// The kernel of ACTOR's loss of joints against libtorch's operations, which are tested against PyTorch (network_test.cpp).
-#include "model/generators/actor/losses.hpp"
+// The kernel of the joints' error against libtorch's operations, which are tested against PyTorch (actor/network_test.cpp).
+#include "model/generators/rest_joints.hpp"
 
 #include <gtest/gtest.h>
 
 #include "ingest/dataset/known_topologies.hpp"
+#include "model/generators/joint_positions.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/tensors.hpp"
 
 using namespace actformer;
@@ -37,6 +39,30 @@ std::pair<at::Tensor, at::Tensor> with_gradient(const at::Tensor& made, const Lo
     return {value.detach(), leaf.grad()};
 }
 
+TEST(RestJoints, OfAMotionAreThoseOfItsRotations) {
+    at::manual_seed(3);
+    const auto body = some_body();
+    for (const auto type : {at::kFloat, at::kDouble})
+        for (const std::int64_t persons : {1, 2}) {
+            const auto motion = some_rotations(persons, type),
+                       weights = at::randn({3, persons * 3, 21, 24}, type);
+            const auto plain_positions = [&](const at::Tensor& x) {
+                return body.positions(by_joint(x))
+                    .unflatten(0, {3, persons, 21})
+                    .permute({0, 1, 4, 2, 3})
+                    .flatten(1, 2);
+            };
+            const double tolerance =
+                type == at::kFloat ? 1e-5 : 1e-13;  // as below; gradients are sums over the joints
+            expect_near(body.positions_in(motion), plain_positions(motion), tolerance);
+            const auto fused = with_gradient(
+                motion, [&](const at::Tensor& x) { return (body.positions_in(x) * weights).sum(); });
+            const auto plain = with_gradient(
+                motion, [&](const at::Tensor& x) { return (plain_positions(x) * weights).sum(); });
+            expect_near(fused.second, plain.second, tolerance * plain.second.abs().max().item<double>());
+        }
+}
+
 TEST(ActorLosses, OfJointsIsTheSquaredDistanceOfPositions) {
     at::manual_seed(1);
     const auto body = some_body();
@@ -64,6 +90,15 @@ TEST(ActorLosses, OfJointsIsNoneWhereAMotionIsItself) {
         with_gradient(motion, [&](const at::Tensor& x) { return body.error(x, motion); });
     EXPECT_EQ(value.item<double>(), 0);
     EXPECT_EQ(gradient.abs().max().item<double>(), 0);
+}
+
+TEST(JointPositions, RefuseBodiesWithoutLengthsOrARestSkeleton) {
+    const MotionSpec limbs{ingest::Representation::limb, ingest::ntu25(), 1, 2, "data"},
+        rotations{ingest::Representation::rot6d, ingest::smpl24(), 1, 2, "data"};
+    EXPECT_NE(error_of([&] { JointPositions{limbs}; }).find("data: limbs without lengths"),
+              std::string::npos);
+    EXPECT_NE(error_of([&] { JointPositions{rotations}; }).find("data: rotations without a rest skeleton"),
+              std::string::npos);
 }
 
 }  // namespace
