@@ -20,6 +20,7 @@ Discriminator::Discriminator(DiscriminatorSettings settings, std::uint64_t seed,
     : settings_(checked(std::move(settings))),
       weights_(*this, discriminator_weights(settings_), seed, type),
       convolutions_(node_convolutions(settings_)) {
+    if (settings_.joint_gain > 0) joints_.emplace(settings_.motions);
     for (const auto& conv : convolutions_) {
         auto values = conv.sums.values;
         const auto sums =
@@ -53,10 +54,21 @@ at::Tensor Discriminator::convolved(const at::Tensor& x, std::size_t i) const {
     return at::leaky_relu(at::matmul(sums_[i], y).sum(2), leak).permute({0, 3, 2, 1});
 }
 
+/// Motions (N, C, T, K) with their differences over frames behind their channels, and behind those their joints' velocities, 0 in the
+/// first frame and at nodes of no joint.
+at::Tensor Discriminator::seen(const at::Tensor& motion) const {
+    const auto all = with_differences(motion, settings_.differences, settings_.difference_gain);
+    if (!joints_) return all;
+    const auto t = motion.size(2);
+    const auto joints = joints_->of(motion);
+    const auto moved = (joints.slice(2, 1, t) - joints.slice(2, 0, t - 1)) * settings_.joint_gain;
+    return at::cat({all, at::constant_pad_nd(moved, {0, motion.size(3) - joints.size(3), 1, 0})}, 1);
+}
+
 /// (N, features) of motions (N, C, T, K).
 at::Tensor Discriminator::features(const at::Tensor& motion) const {
     if (takes_fused_path(motion)) return fused_features(motion);
-    auto x = with_differences(motion, settings_.differences, settings_.difference_gain).transpose(2, 3);
+    auto x = seen(motion).transpose(2, 3);
     for (std::size_t i = 0; i < convolutions_.size(); ++i) x = convolved(x, i);
     const auto last = weights_.normalised("last.weight", is_training()).permute({0, 3, 1, 2});
     x = at::conv2d(x, last, weights_.at("last.bias"), at::IntArrayRef{1, 2},
@@ -76,8 +88,10 @@ at::Tensor Discriminator::node_bias(std::size_t i) const {
 }
 
 at::Tensor Discriminator::fused_features(const at::Tensor& motion) const {
-    auto x = padded_differences(motion, convolutions_[0].padding, true, settings_.differences,
-                                settings_.difference_gain);
+    const bool as_published =
+        settings_.differences == 1 && settings_.difference_gain == 1 && settings_.joint_gain == 0;
+    auto x = as_published ? fused_motion_input(motion.contiguous(), convolutions_[0].padding)
+                          : node_input(seen(motion), convolutions_[0].padding);
     std::int64_t frames = motion.size(2);
     for (std::size_t i = 0; i < convolutions_.size(); ++i) {
         const auto& conv = convolutions_[i];

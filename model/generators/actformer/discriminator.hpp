@@ -3,6 +3,7 @@
 
 #include "model/generators/actformer/layers.hpp"
 #include "model/generators/adversarial/networks.hpp"
+#include "model/generators/joint_positions.hpp"
 #include "model/nn/weight_store.hpp"
 
 namespace actformer::model {
@@ -26,6 +27,7 @@ class Discriminator : public GanDiscriminator {
   private:
     bool takes_fused_path(const at::Tensor& motion) const { return weights_.fused && motion.is_cpu(); }
     at::Tensor linear(const at::Tensor& x, const std::string& name) const;
+    at::Tensor seen(const at::Tensor& motion) const;
     at::Tensor convolved(const at::Tensor& x, std::size_t i) const;
     at::Tensor features(const at::Tensor& motion) const;
     at::Tensor fused_features(const at::Tensor& motion) const;
@@ -33,6 +35,7 @@ class Discriminator : public GanDiscriminator {
     at::Tensor pooled(const at::Tensor& features) const;
 
     DiscriminatorSettings settings_;
+    std::optional<JointPositions> joints_;  ///< where it sees their velocities
     WeightStore weights_;
     std::vector<NodeConvolution> convolutions_;
     std::vector<at::Tensor> sums_;  ///< (hops, out, in) of every convolution

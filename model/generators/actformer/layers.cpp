@@ -125,7 +125,8 @@ std::vector<NodeConvolution> node_convolutions(const DiscriminatorSettings& s) {
     const auto levels = skeleton_levels(s.parents);
     const auto seen = s.persons_in == PersonsInD::concat ? s.persons : 1;
     const auto c = s.width;
-    return {{(1 + s.differences) * seen * s.numbers, c, 5, 1, 2, true,
+    const auto axes_of_joints = s.joint_gain > 0 ? 3U : 0U;
+    return {{((1 + s.differences) * s.numbers + axes_of_joints) * seen, c, 5, 1, 2, true,
              hop_matrix(levels.fine, all_nodes(levels.fine))},
             {c, 2 * c, 4, 2, 1, false, hop_matrix(levels.fine, levels.middle_kept)},
             {2 * c, 4 * c, 4, 2, 1, false, hop_matrix(levels.middle, levels.coarse_kept)},

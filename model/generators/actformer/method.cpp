@@ -15,31 +15,22 @@ std::vector<Key> keys() {
     return all;
 }
 
-GeneratorSettings generator_of(const Config& config, const MotionSpec& spec) {
-    return generator_settings(config, spec.representation, spec.topology, spec.persons, spec.classes,
-                              spec.where);
-}
-
-DiscriminatorSettings discriminator_of(const Config& config, const MotionSpec& spec) {
-    return discriminator_settings(config, spec.representation, spec.topology, spec.persons, spec.classes,
-                                  spec.where);
-}
-
 std::vector<NetworkSummary> networks(const Config& config, const MotionSpec& spec) {
     const auto frames = static_cast<std::uint32_t>(config.get<std::int64_t>("frames"));
-    return {{"generator", generator_summary(generator_of(config, spec), frames)},
-            {"discriminator", discriminator_summary(discriminator_of(config, spec), frames)}};
+    return {{"generator", generator_summary(generator_settings(config, spec), frames)},
+            {"discriminator", discriminator_summary(discriminator_settings(config, spec), frames)}};
 }
 
 std::unique_ptr<Learner> learner(const Config& config, const MotionSpec& spec, const LearnerSetup& setup) {
-    auto networks = gan_networks<Generator, Discriminator>(gan_settings(config), generator_of(config, spec),
-                                                           discriminator_of(config, spec), setup.device);
+    auto networks =
+        gan_networks<Generator, Discriminator>(gan_settings(config), generator_settings(config, spec),
+                                               discriminator_settings(config, spec), setup.device);
     return std::make_unique<GanLearner>(config, spec, std::move(networks), setup);
 }
 
 std::unique_ptr<Maker> maker(const Config& config, const MotionSpec& spec, const std::vector<Array>& weights,
                              const std::string& device) {
-    const auto settings = generator_of(config, spec);
+    const auto settings = generator_settings(config, spec);
     return gan_maker(std::make_shared<Generator>(settings, 0), settings.frames, weights, spec.where, device);
 }
 

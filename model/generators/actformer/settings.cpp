@@ -92,19 +92,19 @@ std::vector<Key> network_keys() {
          "over frames, that the discriminator sees: 1 velocities, 2 accelerations too", 1, 2},
         {"d_gain", 1.0, "times the differences that the discriminator sees (its square times accelerations)",
          0.01, 100},
+        {"d_joints", 0.0, "times the velocities of joints, for the discriminator to see; 0: it sees none", 0,
+         1000},
         {"d_persons", std::string("concat"), "persons in the discriminator: concat, or pooled features", 0, 0,
          persons_names}};
 }
 
-GeneratorSettings generator_settings(const Config& config, ingest::Representation representation,
-                                     const ingest::Topology& topology, std::uint32_t persons,
-                                     std::size_t classes, const std::string& dataset) {
-    check_subjects(config, persons, classes, dataset);
+GeneratorSettings generator_settings(const Config& config, const MotionSpec& spec) {
+    check_subjects(config, spec.persons, spec.classes, spec.where);
     GeneratorSettings s;
-    s.parents = representation.node_parents(topology);
-    s.persons = persons;
-    s.classes = static_cast<std::uint32_t>(classes);
-    s.representation = representation;
+    s.parents = spec.representation.node_parents(spec.topology);
+    s.persons = spec.persons;
+    s.classes = spec.classes;
+    s.representation = spec.representation;
     s.frames = whole(config, "frames");
     s.width = whole(config, "width");
     s.heads = whole(config, "heads");
@@ -113,7 +113,7 @@ GeneratorSettings generator_settings(const Config& config, ingest::Representatio
     s.prior.kind = named<PriorKind>(config, "prior", prior_names);
     s.prior.channels = whole(config, "latent");
     s.prior.length_scale = config.get<double>("length_scale");
-    s.prior.streams = config.get<bool>("shared_z") ? 1 : persons;
+    s.prior.streams = config.get<bool>("shared_z") ? 1 : s.persons;
     s.positions = named<Positions>(config, "pe", position_names);
     s.positions_start = named<PositionsStart>(config, "pe_start", start_names);
     s.interaction = named<Interaction>(config, "interaction", interaction_names);
@@ -124,18 +124,18 @@ GeneratorSettings generator_settings(const Config& config, ingest::Representatio
     return s;
 }
 
-DiscriminatorSettings discriminator_settings(const Config& config, ingest::Representation representation,
-                                             const ingest::Topology& topology, std::uint32_t persons,
-                                             std::size_t classes, const std::string& dataset) {
-    check_subjects(config, persons, classes, dataset);
+DiscriminatorSettings discriminator_settings(const Config& config, const MotionSpec& spec) {
+    check_subjects(config, spec.persons, spec.classes, spec.where);
     DiscriminatorSettings s;
-    s.parents = representation.node_parents(topology);
-    s.persons = persons;
-    s.classes = static_cast<std::uint32_t>(classes);
-    s.numbers = representation.numbers();
+    s.parents = spec.representation.node_parents(spec.topology);
+    s.persons = spec.persons;
+    s.classes = spec.classes;
+    s.numbers = spec.numbers();
     s.width = whole(config, "d_width");
     s.differences = whole(config, "d_differences");
     s.difference_gain = config.get<double>("d_gain");
+    s.joint_gain = config.get<double>("d_joints");
+    if (s.joint_gain > 0) s.motions = spec;
     s.persons_in = named<PersonsInD>(config, "d_persons", persons_names);
     check(s);
     return s;

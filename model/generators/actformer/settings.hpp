@@ -7,6 +7,7 @@
 
 #include "ingest/dataset/representation.hpp"
 #include "model/generators/adversarial/prior_settings.hpp"
+#include "model/generators/method.hpp"
 #include "model/train/config.hpp"
 
 namespace actformer::model {
@@ -72,11 +73,12 @@ struct DiscriminatorSettings {
     std::uint32_t differences =
         1;  ///< the highest differences over frames behind the channels: 1 velocities, 2 accelerations too
     double difference_gain = 1;  ///< times the first differences, its square times the second
+    double joint_gain = 0;       ///< times the velocities of joints, behind the differences; 0: it sees none
+    MotionSpec motions;          ///< where joint_gain is not 0: whose joints
     PersonsInD persons_in = PersonsInD::concat;
 
     std::uint32_t nodes() const { return static_cast<std::uint32_t>(parents.size()); }
     std::uint32_t features() const { return 16 * width; }
-    bool operator==(const DiscriminatorSettings&) const = default;
 };
 
 /// Frames that leave at least one to the discriminator's last layer.
@@ -89,13 +91,9 @@ void check(const DiscriminatorSettings& settings);
 /// The configuration's keys that decide on the networks, with the paper's values.
 std::vector<Key> network_keys();
 
-/// The networks of a configuration that holds network_keys(), for a dataset named `dataset` in complaints. Throw Error where
-/// the configuration asks for other persons or classes, or for what cannot be built (heads that do not divide the width).
-GeneratorSettings generator_settings(const Config& config, ingest::Representation representation,
-                                     const ingest::Topology& topology, std::uint32_t persons,
-                                     std::size_t classes, const std::string& dataset);
-DiscriminatorSettings discriminator_settings(const Config& config, ingest::Representation representation,
-                                             const ingest::Topology& topology, std::uint32_t persons,
-                                             std::size_t classes, const std::string& dataset);
+/// The networks of a configuration that holds network_keys(). Throw Error where the configuration asks for other persons or classes, or
+/// for what cannot be built (heads that do not divide the width).
+GeneratorSettings generator_settings(const Config& config, const MotionSpec& spec);
+DiscriminatorSettings discriminator_settings(const Config& config, const MotionSpec& spec);
 
 }  // namespace actformer::model

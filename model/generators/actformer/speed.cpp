@@ -51,6 +51,10 @@ struct SpeedTest::Parts {
 
 namespace {
 
+MotionSpec motions_of(const SpeedRequest& request) {
+    return {ingest::Representation::limb, ingest::ntu25(), request.persons, request.classes, "speed"};
+}
+
 Config presets() {
     return {"actformer", network_keys()};
 }
@@ -65,10 +69,8 @@ GanSettings settings_of(const SpeedRequest& request) {
 
 SpeedTest::Parts::Parts(const SpeedRequest& wanted)
     : request(wanted),
-      generator(generator_settings(presets(), ingest::Representation::limb, ingest::ntu25(), wanted.persons,
-                                   wanted.classes, "speed")),
-      discriminator(discriminator_settings(presets(), ingest::Representation::limb, ingest::ntu25(),
-                                           wanted.persons, wanted.classes, "speed")),
+      generator(generator_settings(presets(), motions_of(wanted))),
+      discriminator(discriminator_settings(presets(), motions_of(wanted))),
       gan(settings_of(wanted),
           gan_networks<Generator, Discriminator>(settings_of(wanted), generator, discriminator, at::kCPU),
           at::kCPU, processes),

@@ -22,7 +22,9 @@ at::Tensor CsgnDiscriminator::features(const at::Tensor& motion) const {
     };
     const auto n = motion.size(0);
     auto frames = motion.size(2);
-    auto x = padded_differences(motion, layers_.levels.front().padding, fused);
+    const std::int64_t padding = layers_.levels.front().padding;
+    auto x = fused ? fused_motion_input(motion.contiguous(), padding)
+                   : node_input(with_differences(motion), padding);
     for (std::size_t i = 0; i < layers_.levels.size(); ++i) {
         const auto& level = layers_.levels[i];
         const auto& next = i + 1 < layers_.levels.size() ? layers_.levels[i + 1] : layers_.last;

@@ -5,8 +5,6 @@
 
 #include <vector>
 
-#include "model/nn/fused.hpp"
-
 namespace actformer::model {
 
 /// Motions (N, C, T, K) and behind their channels the first differences over frames times `gain`; with `order` 2 behind those the second ones times
@@ -23,13 +21,9 @@ inline at::Tensor with_differences(const at::Tensor& motion, std::int64_t order 
     return at::cat(all, 1);
 }
 
-/// The same as graph convolutions take it, (N, K, padding + T + padding, channels), zeros on either side. `fused` takes a kernel of our own,
-/// on processors, for what the paper's discriminator sees.
-inline at::Tensor padded_differences(const at::Tensor& motion, std::int64_t padding, bool fused,
-                                     std::int64_t order = 1, double gain = 1) {
-    if (fused && order == 1 && gain == 1) return fused_motion_input(motion.contiguous(), padding);
-    const auto seen = with_differences(motion, order, gain).permute({0, 3, 2, 1});
-    return at::constant_pad_nd(seen, {0, 0, padding, padding}).contiguous();
+/// Numbers (N, C, T, K) as graph convolutions of our own take them, (N, K, padding + T + padding, C), zeros on either side.
+inline at::Tensor node_input(const at::Tensor& numbers, std::int64_t padding) {
+    return at::constant_pad_nd(numbers.permute({0, 3, 2, 1}), {0, 0, padding, padding}).contiguous();
 }
 
 }  // namespace actformer::model

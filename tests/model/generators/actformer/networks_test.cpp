@@ -56,6 +56,22 @@ struct Networks {
     DiscriminatorSettings d;
 };
 
+/// The discriminator sees joints of bodies that no other has.
+void show_joints(Networks& n, double gain) {
+    n.d.joint_gain = gain;
+    auto& motions = n.d.motions;
+    motions.representation = n.g.representation;
+    motions.where = "test";
+    const auto joints = small_tree.size() - (n.g.representation == ingest::Representation::rot6d ? 1 : 0);
+    for (std::size_t j = 0; j < joints; ++j) {
+        motions.topology.names.push_back(fmt::format("joint{}", j));
+        motions.topology.parents.push_back(small_tree[j]);
+        motions.bone_length.push_back(0.1F + 0.05F * static_cast<float>(j));
+        for (int axis = 0; axis < 3; ++axis)
+            motions.rest.push_back(0.3F - 0.11F * static_cast<float>((3 * j + axis) % 7));
+    }
+}
+
 /// Every value of every switch at least once, each with some others.
 std::vector<Networks> switched() {
     std::vector<Networks> all;
@@ -113,14 +129,22 @@ std::vector<Networks> switched() {
         n.g.positions_start = PositionsStart::sinusoids;
     });
     add(2, [](Networks& n) { n.g.smooth = 1.5; });
-    add(2, [](Networks& n) { n.g.smooth_root = 2; });
+    add(2, [](Networks& n) {
+        n.g.smooth_root = 2;
+        n.d.differences = 2;
+        n.d.persons_in = PersonsInD::maxpool;
+        show_joints(n, 5);
+    });
     add(1, [](Networks& n) {
         n.g.smooth_root = 30;
         n.g.representation = ingest::Representation::rot6d;
+        show_joints(n, 4);
     });
     add(2, [](Networks& n) {
         n.g.smooth_root = 1.5;
         n.g.representation = ingest::Representation::xyz;
+        n.d.difference_gain = 2;
+        show_joints(n, 3);
     });
     add(2, [](Networks& n) {
         n.g.smooth = 3;
@@ -410,6 +434,9 @@ TEST_F(ActformerNetworks, AgreeWithNumPy) {
             {"smooth_root", gs.smooth_root},
             {"differences", ds.differences},
             {"gain", ds.difference_gain},
+            {"joint_gain", ds.joint_gain},
+            {"bone_length", ds.motions.bone_length},
+            {"rest", ds.motions.rest},
             {"d_persons", persons_in[static_cast<int>(ds.persons_in)]},
             {"middle",
              is_ntu ? std::vector<std::uint32_t>{0, 3, 5, 7, 9, 11, 13, 15, 17, 19, 20} : levels.middle_kept},

@@ -219,12 +219,47 @@ def convolve(x, w, stride, pad):
     return np.stack([np.einsum('ti,oti->o', x[a:a + taps], w) for a in range(0, len(x) - taps + 1, stride)])
 
 
+def joint_positions(case, pose):
+    """pose (numbers, K) of one person -> (joints, 3)"""
+    how, parents = case['representation'], case['parents']
+    if how == 'xyz':
+        return pose.T
+    if how == 'limb':
+        out = np.zeros((len(parents), 3))
+        for j, parent in enumerate(parents):
+            out[j] = pose[:, j] if parent < 0 else out[parent] + case['bone_length'][j] * pose[:, j]
+        return out
+    rest, turns, out = np.reshape(case['rest'], (-1, 3)), [], []
+    for j, parent in enumerate(parents[:-1]):
+        a = pose[:3, j] / np.linalg.norm(pose[:3, j])
+        b = pose[3:, j] - (a @ pose[3:, j]) * a
+        b /= np.linalg.norm(b)
+        own = np.stack((a, b, np.cross(a, b)))
+        turns.append(own if parent < 0 else turns[parent] @ own)
+        out.append(pose[:3, -1] if parent < 0 else out[parent] + turns[parent] @ rest[j])
+    return np.stack(out)
+
+
+def joint_velocities(case, motion):
+    """motion (P*D, T, K) -> (P*3, T, K)"""
+    numbers, (channels, frames, nodes) = case['numbers'], motion.shape
+    out = np.zeros((channels // numbers * 3, frames, nodes))
+    for p in range(channels // numbers):
+        at = [joint_positions(case, motion[p * numbers:(p + 1) * numbers, t]) for t in range(frames)]
+        for t in range(1, frames):
+            out[3 * p:3 * p + 3, t, :len(at[t])] = (at[t] - at[t - 1]).T
+    return out
+
+
 def features(case, net, motion):
     """motion (C, T, K) -> (features)"""
     moved, sped_up = np.zeros_like(motion), np.zeros_like(motion)
     moved[:, 1:] = motion[:, 1:] - motion[:, :-1]
     sped_up[:, 2:] = motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]
-    x = np.concatenate((motion, case['gain'] * moved, case['gain'] ** 2 * sped_up)[:1 + case['differences']]).transpose(2, 1, 0)          # (K, T, C)
+    x = np.concatenate((motion, case['gain'] * moved, case['gain'] ** 2 * sped_up)[:1 + case['differences']])
+    if case['joint_gain']:
+        x = np.concatenate((x, case['joint_gain'] * joint_velocities(case, motion)))
+    x = x.transpose(2, 1, 0)          # (K, T, C)
     fine, middle, coarse = levels(case)
     sums = [matrices(fine, range(len(fine))), matrices(fine, case['middle']), matrices(middle, case['coarse']),
             matrices(coarse, range(len(coarse)))]

@@ -19,7 +19,11 @@ using namespace actformer::test;
 
 namespace {
 
-constexpr auto limb = ingest::Representation::limb;
+MotionSpec ntu_motions(std::uint32_t persons, std::size_t classes) {
+    return {ingest::Representation::limb, ingest::ntu25(), persons, static_cast<std::uint32_t>(classes),
+            "ntu"};
+}
+
 const std::string configs = source("model/configs/");
 
 Config with(const std::vector<std::string>& assignments) {
@@ -40,8 +44,8 @@ void expect_refused(const std::vector<std::string>& assignments, std::uint32_t p
                     const std::vector<std::string>& words) {
     try {
         const auto config = with(assignments);
-        generator_settings(config, limb, ingest::ntu25(), persons, classes, "ntu");
-        discriminator_settings(config, limb, ingest::ntu25(), persons, classes, "ntu");
+        generator_settings(config, ntu_motions(persons, classes));
+        discriminator_settings(config, ntu_motions(persons, classes));
         ADD_FAILURE() << "taken";
     } catch (const Error& e) {
         for (const auto& word : words)
@@ -54,7 +58,7 @@ void expect_refused(const std::vector<std::string>& assignments, std::uint32_t p
 TEST(GeneratorSettings, SwitchesComeThrough) {
     const auto config = with({"prior=gaussian", "shared_z=false", "pe=independent", "interaction=concat",
                               "body=graphconv", "d_persons=selfatt", "d_width=16", "latent=32", "depth=3"});
-    const auto g = generator_settings(config, limb, ingest::ntu25(), 2, 26, "ntu");
+    const auto g = generator_settings(config, ntu_motions(2, 26));
     EXPECT_EQ(g.prior.kind, PriorKind::gaussian);
     EXPECT_EQ(g.prior.streams, 2U);
     EXPECT_EQ(g.prior.channels, 32U);
@@ -62,18 +66,18 @@ TEST(GeneratorSettings, SwitchesComeThrough) {
     EXPECT_EQ(g.interaction, Interaction::concat);
     EXPECT_EQ(g.body, Body::graphconv);
     EXPECT_EQ(interacting_blocks(g), (std::vector<bool>{false, false, false}));
-    const auto d = discriminator_settings(config, limb, ingest::ntu25(), 2, 26, "ntu");
+    const auto d = discriminator_settings(config, ntu_motions(2, 26));
     EXPECT_EQ(d.persons_in, PersonsInD::selfatt);
     EXPECT_EQ(d.features(), 256U);
 }
 
 TEST(GeneratorSettings, RotationsHaveANodeOfTranslationOnTheRoot) {
     const ingest::Topology tree{{"root", "arm", "hand"}, {-1, 0, 1}};
-    const auto rotations = ingest::Representation::rot6d;
-    const auto g = generator_settings(with({}), rotations, tree, 2, 26, "smpl");
+    const MotionSpec rotations{ingest::Representation::rot6d, tree, 2, 26, "smpl"};
+    const auto g = generator_settings(with({}), rotations);
     EXPECT_EQ(g.parents, (std::vector<int>{-1, 0, 1, 0}));
     EXPECT_EQ(g.numbers(), 6U);
-    const auto d = discriminator_settings(with({}), rotations, tree, 2, 26, "smpl");
+    const auto d = discriminator_settings(with({}), rotations);
     EXPECT_EQ(d.parents, g.parents);
     EXPECT_EQ(d.numbers, 6U);
 }
@@ -117,6 +121,7 @@ TEST(GeneratorSettings, SwitchesThatThePaperDoesNotHaveAreOffInItsConfigurations
         EXPECT_EQ(config.get<std::string>("pe_start"), "normal") << name;
         EXPECT_EQ(config.get<std::int64_t>("d_differences"), 1) << name;
         EXPECT_EQ(config.get<double>("d_gain"), 1) << name;
+        EXPECT_EQ(config.get<double>("d_joints"), 0) << name;
         EXPECT_EQ(config.get<double>("smooth"), 0) << name;
         EXPECT_EQ(config.get<double>("smooth_root"), 0) << name;
         EXPECT_EQ(config.get<std::int64_t>("discriminator_steps"), 4) << name;
