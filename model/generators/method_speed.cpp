@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/process/usage.hpp"
+#include "ingest/dataset/described_motions.hpp"
 #include "kernels/sampler.hpp"
 #include "model/generators/generator_settings.hpp"
 #include "model/generators/method.hpp"
@@ -36,7 +37,9 @@ Config config_of(const MethodSpeedRequest& request) {
 }
 
 MotionSpec timed_spec(const MethodSpeedRequest& request) {
-    return {ingest::Representation::limb, ingest::ntu25(), request.persons, request.classes, "speed"};
+    const auto& tree = ingest::ntu25();
+    return {ingest::Representation::limb,    tree, request.persons, request.classes, "speed",
+            ingest::usual_bone_lengths(tree)};
 }
 
 /// Of libtorch, as a training takes it.

@@ -35,6 +35,21 @@ TEST(BenchTrain, TellsWhereTheTimeGoes) {
     EXPECT_FALSE(json["generator step"].contains("ratio")) << "no peer was asked";
 }
 
+TEST(BenchTrain, TimesAMethodWithSettingsOfItsOwn) {
+    if (!has_training()) GTEST_SKIP() << "this build has no libtorch";
+    for (const std::string method :
+         {"actformer width=16 heads=2 latent=4 d_width=2 d_joints=8", "csgn width=8 d_width=2"}) {
+        const auto result = run_actformer(
+            "bench train --persons 1 --classes 3 --frames 16 --batch 2 --threads 1 --rounds 1 --json "
+            "--method " +
+            method + " 2>/dev/null");
+        ASSERT_EQ(result.exit, 0) << method << ": " << result.output;
+        const auto json = nlohmann::json::parse(result.output, nullptr, false);
+        EXPECT_GT(json["step"]["seconds"].get<double>(), 0) << method;
+        EXPECT_GT(json["100 motions"]["seconds"].get<double>(), 0) << method;
+    }
+}
+
 TEST(BenchTrain, RefusesAFolderWithoutThePeer) {
     if (!has_training()) GTEST_SKIP() << "this build has no libtorch";
     expect_refused(run_actformer("bench train --frames 16 --batch 1 --rounds 1 --peers /nowhere"),
