@@ -55,9 +55,11 @@ at::Tensor Discriminator::convolved(const at::Tensor& x, std::size_t i) const {
 }
 
 /// Motions (N, C, T, K) with their differences over frames behind their channels, and behind those their joints' velocities, 0 in the
-/// first frame and at nodes of no joint.
+/// first frame and at nodes of no joint; each times its gain.
 at::Tensor Discriminator::seen(const at::Tensor& motion) const {
-    const auto all = with_differences(motion, settings_.differences, settings_.difference_gain);
+    auto all = with_differences(motion, settings_.differences, settings_.difference_gain);
+    const auto c = motion.size(1);
+    if (settings_.pose_gain != 1) all = at::cat({motion * settings_.pose_gain, all.slice(1, c)}, 1);
     if (!joints_) return all;
     const auto t = motion.size(2);
     const auto joints = joints_->of(motion);
@@ -88,8 +90,8 @@ at::Tensor Discriminator::node_bias(std::size_t i) const {
 }
 
 at::Tensor Discriminator::fused_features(const at::Tensor& motion) const {
-    const bool as_published =
-        settings_.differences == 1 && settings_.difference_gain == 1 && settings_.joint_gain == 0;
+    const bool as_published = settings_.differences == 1 && settings_.pose_gain == 1 &&
+                              settings_.difference_gain == 1 && settings_.joint_gain == 0;
     auto x = as_published ? fused_motion_input(motion.contiguous(), convolutions_[0].padding)
                           : node_input(seen(motion), convolutions_[0].padding);
     std::int64_t frames = motion.size(2);

@@ -90,6 +90,7 @@ std::vector<Key> network_keys() {
         {"d_width", Number{32}, "channels of the discriminator's first layer", 1, 1024},
         {"d_differences", Number{1},
          "over frames, that the discriminator sees: 1 velocities, 2 accelerations too", 1, 2},
+        {"d_poses", 1.0, "times the poses that the discriminator sees", 0.01, 100},
         {"d_gain", 1.0, "times the differences that the discriminator sees (its square times accelerations)",
          0.01, 100},
         {"d_joints", 0.0, "times the velocities of joints, for the discriminator to see; 0: it sees none", 0,
@@ -133,6 +134,7 @@ DiscriminatorSettings discriminator_settings(const Config& config, const MotionS
     s.numbers = spec.numbers();
     s.width = whole(config, "d_width");
     s.differences = whole(config, "d_differences");
+    s.pose_gain = config.get<double>("d_poses");
     s.difference_gain = config.get<double>("d_gain");
     s.joint_gain = config.get<double>("d_joints");
     if (s.joint_gain > 0) s.motions = spec;

@@ -72,6 +72,7 @@ struct DiscriminatorSettings {
     std::uint32_t width = 32;   ///< channels of the first layer; each of the four behind it doubles them
     std::uint32_t differences =
         1;  ///< the highest differences over frames behind the channels: 1 velocities, 2 accelerations too
+    double pose_gain = 1;        ///< times the poses themselves
     double difference_gain = 1;  ///< times the first differences, its square times the second
     double joint_gain = 0;       ///< times the velocities of joints, behind the differences; 0: it sees none
     MotionSpec motions;          ///< where joint_gain is not 0: whose joints

@@ -132,6 +132,7 @@ std::vector<Networks> switched() {
     add(2, [](Networks& n) {
         n.g.smooth_root = 2;
         n.d.differences = 2;
+        n.d.pose_gain = 3;
         n.d.persons_in = PersonsInD::maxpool;
         show_joints(n, 5);
     });
@@ -433,6 +434,7 @@ TEST_F(ActformerNetworks, AgreeWithNumPy) {
             {"smooth", gs.smooth},
             {"smooth_root", gs.smooth_root},
             {"differences", ds.differences},
+            {"pose_gain", ds.pose_gain},
             {"gain", ds.difference_gain},
             {"joint_gain", ds.joint_gain},
             {"bone_length", ds.motions.bone_length},

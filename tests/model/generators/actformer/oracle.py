@@ -256,7 +256,7 @@ def features(case, net, motion):
     moved, sped_up = np.zeros_like(motion), np.zeros_like(motion)
     moved[:, 1:] = motion[:, 1:] - motion[:, :-1]
     sped_up[:, 2:] = motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]
-    x = np.concatenate((motion, case['gain'] * moved, case['gain'] ** 2 * sped_up)[:1 + case['differences']])
+    x = np.concatenate((case['pose_gain'] * motion, case['gain'] * moved, case['gain'] ** 2 * sped_up)[:1 + case['differences']])
     if case['joint_gain']:
         x = np.concatenate((x, case['joint_gain'] * joint_velocities(case, motion)))
     x = x.transpose(2, 1, 0)          # (K, T, C)

@@ -122,6 +122,7 @@ TEST(GeneratorSettings, SwitchesThatThePaperDoesNotHaveAreOffInItsConfigurations
         EXPECT_EQ(config.get<std::int64_t>("d_differences"), 1) << name;
         EXPECT_EQ(config.get<double>("d_gain"), 1) << name;
         EXPECT_EQ(config.get<double>("d_joints"), 0) << name;
+        EXPECT_EQ(config.get<double>("d_poses"), 1) << name;
         EXPECT_EQ(config.get<double>("smooth"), 0) << name;
         EXPECT_EQ(config.get<double>("smooth_root"), 0) << name;
         EXPECT_EQ(config.get<std::int64_t>("discriminator_steps"), 4) << name;
