@@ -8,7 +8,10 @@
 #include <torch/version.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <string_view>
 
@@ -58,6 +61,15 @@ std::string_view newer_core(std::string_view core) {
     return {};
 }
 
+/// OMP_NUM_THREADS; of a list the first. 0 where it is not set, or no number of threads.
+int threads_asked_for() {
+    const char* text = std::getenv("OMP_NUM_THREADS");
+    if (!text) return 0;
+    int threads = 0;
+    std::from_chars(text, text + std::strlen(text), threads);
+    return std::clamp(threads, 0, 1024);
+}
+
 }  // namespace
 
 BlasCheck check_blas() {
@@ -82,6 +94,7 @@ BlasCheck check_blas() {
 }
 
 int set_threads(int threads) {
+    if (threads == 0) threads = threads_asked_for();
     if (threads == 0) {
         cpu_set_t allowed;
         threads = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;

@@ -17,8 +17,8 @@ struct BlasCheck {
 /// OpenBLAS itself to kernels of 2004 on a processor newer than it.
 BlasCheck check_blas();
 
-/// Sets the threads of libtorch, which starts with one unless told; 0 means as many as this process may use.
-/// Returns how many were set.
+/// Sets the threads of libtorch, which starts with one unless told; 0 means OMP_NUM_THREADS, or where that is not set as many as this
+/// process may use. Returns how many were set.
 int set_threads(int threads);
 
 }  // namespace actformer::model
