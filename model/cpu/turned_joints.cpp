@@ -200,7 +200,7 @@ void by_frames(const RestSkeleton& skeleton, std::int64_t frames, const T* rotat
     }
 }
 
-/// All frames of one person.
+/// All frames of one person: gradients to its rotations from those to its positions.
 template <typename T>
 void person_back(const RestSkeleton& skeleton, std::int64_t frames, const T* rotations, const T* to_positions,
                  T* to) {
@@ -214,7 +214,7 @@ void person_back(const RestSkeleton& skeleton, std::int64_t frames, const T* rot
               });
 }
 
-/// The same.
+/// All frames of one person: the squared differences' sum, and gradients to `made`.
 template <typename T>
 double person_differences(const RestSkeleton& skeleton, std::int64_t frames, const T* made, const T* real,
                           T* to) {

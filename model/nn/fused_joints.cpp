@@ -28,7 +28,7 @@ struct HeldSkeleton : torch::CustomClassHolder {
     explicit HeldSkeleton(std::shared_ptr<const cpu::RestSkeleton> of) : skeleton(std::move(of)) {}
 };
 
-struct JointPositions : Function<JointPositions> {
+struct TurnedJoints : Function<TurnedJoints> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& rotations,
                               const c10::intrusive_ptr<HeldSkeleton>& held) {
         const auto shape = rotations_shape(rotations);
@@ -85,7 +85,7 @@ struct JointError : Function<JointError> {
 at::Tensor fused_joint_positions(const std::shared_ptr<const cpu::RestSkeleton>& skeleton,
                                  const at::Tensor& rotations) {
     check_fits(*skeleton, rotations);
-    return JointPositions::apply(rotations.contiguous(), c10::make_intrusive<HeldSkeleton>(skeleton));
+    return TurnedJoints::apply(rotations.contiguous(), c10::make_intrusive<HeldSkeleton>(skeleton));
 }
 
 at::Tensor fused_joint_error(const cpu::RestSkeleton& skeleton, const at::Tensor& made,

@@ -1,4 +1,4 @@
-// The kernel of the joints' error against libtorch's operations, which are tested against PyTorch (actor/network_test.cpp).
+// The kernels of joints' positions and of their error against libtorch's operations, which are tested against PyTorch (actor/network_test.cpp).
 #include "model/generators/rest_joints.hpp"
 
 #include <gtest/gtest.h>
