@@ -57,14 +57,15 @@ at::Tensor Discriminator::convolved(const at::Tensor& x, std::size_t i) const {
 /// Motions (N, C, T, K) with their differences over frames behind their channels, and behind those their joints' velocities, 0 in the
 /// first frame and at nodes of no joint; each times its gain.
 at::Tensor Discriminator::seen(const at::Tensor& motion) const {
-    auto all = with_differences(motion, settings_.differences, settings_.difference_gain);
-    const auto c = motion.size(1);
-    if (settings_.pose_gain != 1) all = at::cat({motion * settings_.pose_gain, all.slice(1, c)}, 1);
-    if (!joints_) return all;
-    const auto t = motion.size(2);
-    const auto joints = joints_->of(motion);
-    const auto moved = (joints.slice(2, 1, t) - joints.slice(2, 0, t - 1)) * settings_.joint_gain;
-    return at::cat({all, at::constant_pad_nd(moved, {0, motion.size(3) - joints.size(3), 1, 0})}, 1);
+    std::vector<at::Tensor> all{settings_.pose_gain == 1 ? motion : motion * settings_.pose_gain};
+    auto moved = motion;
+    for (std::int64_t i = 1; i <= settings_.differences; ++i)
+        all.push_back(moved = difference(moved, settings_.difference_gain, i));
+    if (joints_) {
+        const auto velocities = difference(joints_->of(motion), settings_.joint_gain);
+        all.push_back(at::constant_pad_nd(velocities, {0, motion.size(3) - velocities.size(3)}));
+    }
+    return at::cat(all, 1);
 }
 
 /// (N, features) of motions (N, C, T, K).

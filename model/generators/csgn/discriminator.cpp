@@ -24,7 +24,7 @@ at::Tensor CsgnDiscriminator::features(const at::Tensor& motion) const {
     auto frames = motion.size(2);
     const std::int64_t padding = layers_.levels.front().padding;
     auto x = fused ? fused_motion_input(motion.contiguous(), padding)
-                   : node_input(with_differences(motion), padding);
+                   : node_input(at::cat({motion, difference(motion)}, 1), padding);
     for (std::size_t i = 0; i < layers_.levels.size(); ++i) {
         const auto& level = layers_.levels[i];
         const auto& next = i + 1 < layers_.levels.size() ? layers_.levels[i + 1] : layers_.last;

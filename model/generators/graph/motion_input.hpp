@@ -3,22 +3,14 @@
 
 #include <ATen/ATen.h>
 
-#include <vector>
-
 namespace actformer::model {
 
-/// Motions (N, C, T, K) and behind their channels the first differences over frames times `gain`; with `order` 2 behind those the second ones times
-/// gain squared: (N, (1 + order) * C, T, K). Differences that would need frames before the first are 0.
-inline at::Tensor with_differences(const at::Tensor& motion, std::int64_t order = 1, double gain = 1) {
-    const auto t = motion.size(2);
-    std::vector<at::Tensor> all{motion};
-    for (std::int64_t i = 1; i <= order; ++i) {
-        const auto& last = all.back();
-        auto moved = last.slice(2, i, t) - last.slice(2, i - 1, t - 1);
-        if (gain != 1) moved = moved * gain;
-        all.push_back(at::cat({at::zeros_like(motion.slice(2, 0, i)), moved}, 2));
-    }
-    return at::cat(all, 1);
+/// What numbers (N, C, T, K) are more than in the frame before, times `gain`; 0 in the `still` first frames, one or more.
+inline at::Tensor difference(const at::Tensor& numbers, double gain = 1, std::int64_t still = 1) {
+    const auto t = numbers.size(2);
+    auto moved = numbers.slice(2, still, t) - numbers.slice(2, still - 1, t - 1);
+    if (gain != 1) moved = moved * gain;
+    return at::cat({at::zeros_like(numbers.slice(2, 0, still)), moved}, 2);
 }
 
 /// Numbers (N, C, T, K) as graph convolutions of our own take them, (N, K, padding + T + padding, C), zeros on either side.
