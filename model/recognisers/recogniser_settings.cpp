@@ -1,17 +1,15 @@
 #include "model/recognisers/recogniser_settings.hpp"
 
 #include "base/error.hpp"
+#include "model/train/shared_keys.hpp"
 
 namespace actformer::model {
 namespace {
 
 void add_network_keys(KeyTable<RecogniserSettings>& table) {
     using Settings = RecogniserSettings;
+    add_subject_keys(table);
     table
-        .add(&Settings::persons,
-             {.name = "persons", .meaning = "persons a clip; 0 takes the dataset's", .least = 0, .most = 16})
-        .add(&Settings::classes,
-             {.name = "classes", .meaning = "classes; 0 takes the dataset's", .least = 0, .most = 100000})
         .add(&Settings::joints, {.name = "joints",
                                  .meaning = "own, or common15: the 15 that NTU RGB+D, GTA Combat and SMPL "
                                             "share, as limbs, for FIDa across datasets",
@@ -86,13 +84,8 @@ const KeyTable<GruPresets>& gru_table() {
     using Settings = RecogniserSettings;
     static const auto all = [] {
         KeyTable<GruPresets> keys;
-        keys.add(&Settings::persons, {.name = "persons",
-                                      .meaning = "persons a clip; 0 takes the dataset's",
-                                      .least = 0,
-                                      .most = 16})
-            .add(&Settings::classes,
-                 {.name = "classes", .meaning = "classes; 0 takes the dataset's", .least = 0, .most = 100000})
-            .add(&Settings::frames,
+        add_subject_keys(keys);
+        keys.add(&Settings::frames,
                  {.name = "frames", .meaning = "frames a window", .least = 1, .most = 4096})
             .add(&Settings::rate,
                  {.name = "rate", .meaning = "learning rate of Adam at the start", .least = 0, .most = 100})

@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "model/generators/action2motion/chains.hpp"
 #include "model/generators/generator_settings.hpp"
-#include "model/train/key_table.hpp"
+#include "model/train/shared_keys.hpp"
 
 namespace actformer::model::action2motion {
 namespace {
@@ -13,11 +13,8 @@ constexpr std::uint32_t width_step = 16;
 
 KeyTable<Settings> network_table() {
     KeyTable<Settings> table;
+    add_subject_keys(table);
     table
-        .add(&Settings::persons,
-             {.name = "persons", .meaning = "persons a clip; 0 takes the dataset's", .least = 0, .most = 16})
-        .add(&Settings::classes,
-             {.name = "classes", .meaning = "classes; 0 takes the dataset's", .least = 0, .most = 100000})
         .add(&Settings::frames, {.name = "frames",
                                  .meaning = "frames a window, and the most that can be generated",
                                  .least = 2,
@@ -53,24 +50,13 @@ const KeyTable<Settings>& table() {
                                         .meaning = "weight of the Kullback-Leibler divergence in the loss",
                                         .least = 0,
                                         .most = 1e6})
-            .add(&Settings::rate, {.name = "rate", .meaning = "learning rate", .least = 0, .most = 1})
-            .add(&Settings::beta1, {.name = "beta1",
-                                    .meaning = "of Adam: decay of the mean gradient",
-                                    .least = 0,
-                                    .most = 0.9999})
-            .add(&Settings::beta2, {.name = "beta2",
-                                    .meaning = "of Adam: decay of the mean squared gradient",
-                                    .least = 0,
-                                    .most = 0.999999})
-            .add(&Settings::weight_decay, {.name = "weight_decay",
-                                           .meaning = "share of a weight that joins its gradient",
-                                           .least = 0,
-                                           .most = 1})
-            .add(&Settings::average,
-                 {.name = "average",
-                  .meaning = "decay a step of the weights' EMA, as in 0.999; 0 keeps none",
-                  .least = 0,
-                  .most = 0.999999});
+            .add(&Settings::rate, {.name = "rate", .meaning = "learning rate", .least = 0, .most = 1});
+        add_adam_keys(table);
+        table.add(&Settings::weight_decay, {.name = "weight_decay",
+                                            .meaning = "share of a weight that joins its gradient",
+                                            .least = 0,
+                                            .most = 1});
+        add_ema_key(table);
         return table;
     }();
     return all;

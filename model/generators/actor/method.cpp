@@ -21,7 +21,8 @@ std::vector<NetworkSummary> networks(const Config& config, const MotionSpec& spe
 }
 
 std::unique_ptr<Learner> learner(const Config& config, const MotionSpec& spec, const LearnerSetup& setup) {
-    return std::make_unique<ActorLearner>(config, spec, setup);
+    return std::make_unique<ActorLearner>(actor_settings(config, spec), actor_training(config, spec), spec,
+                                          setup);
 }
 
 /// Latent vectors are standard normal numbers.

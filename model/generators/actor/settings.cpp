@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "model/generators/generator_settings.hpp"
-#include "model/train/key_table.hpp"
+#include "model/train/shared_keys.hpp"
 
 namespace actformer::model {
 namespace {
@@ -17,11 +17,8 @@ struct Settings : ActorSettings, ActorTraining {
 };
 
 void add_network_keys(KeyTable<Settings>& keys) {
-    keys.add(&Settings::persons,
-             {.name = "persons", .meaning = "persons a clip; 0 takes the dataset's", .least = 0, .most = 16})
-        .add(&Settings::classes,
-             {.name = "classes", .meaning = "classes; 0 takes the dataset's", .least = 0, .most = 100000})
-        .add(&Settings::frames, {.name = "frames",
+    add_subject_keys(keys);
+    keys.add(&Settings::frames, {.name = "frames",
                                  .meaning = "frames a window; motions of other lengths can be generated too",
                                  .least = 2,
                                  .most = most_actor_frames})
@@ -57,11 +54,8 @@ void add_training_keys(KeyTable<Settings>& keys) {
         .add(&Settings::padding,
              {.name = "padding",
               .meaning = "clips shorter than a window: back-and-forth, or hold the last frame (public tools)",
-              .choices = {"back-and-forth", "hold"}})
-        .add(&Settings::average, {.name = "average",
-                                  .meaning = "decay a step of the weights' EMA, as in 0.999; 0 keeps none",
-                                  .least = 0,
-                                  .most = 0.999999});
+              .choices = {"back-and-forth", "hold"}});
+    add_ema_key(keys);
 }
 
 const KeyTable<Settings>& table() {

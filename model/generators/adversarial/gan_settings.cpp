@@ -1,7 +1,7 @@
 #include "model/generators/adversarial/gan_settings.hpp"
 
 #include "base/error.hpp"
-#include "model/train/key_table.hpp"
+#include "model/train/shared_keys.hpp"
 
 namespace actformer::model {
 namespace {
@@ -26,21 +26,10 @@ const KeyTable<GanSettings>& table() {
             .add(&Settings::generator_rate,
                  {.name = "generator_rate", .meaning = "learning rate", .least = 0, .most = 1})
             .add(&Settings::discriminator_rate,
-                 {.name = "discriminator_rate", .meaning = "learning rate", .least = 0, .most = 1})
-            .add(&Settings::beta1, {.name = "beta1",
-                                    .meaning = "of Adam: decay of the mean gradient",
-                                    .least = 0,
-                                    .most = 0.9999})
-            .add(&Settings::beta2, {.name = "beta2",
-                                    .meaning = "of Adam: decay of the mean squared gradient",
-                                    .least = 0,
-                                    .most = 0.999999})
-            .add(&Settings::average,
-                 {.name = "average",
-                  .meaning = "decay a step of the generator's EMA, as in 0.999; 0 keeps none",
-                  .least = 0,
-                  .most = 0.999999})
-            .add(&Settings::bf16,
+                 {.name = "discriminator_rate", .meaning = "learning rate", .least = 0, .most = 1});
+        add_adam_keys(keys);
+        add_ema_key(keys);
+        keys.add(&Settings::bf16,
                  {.name = "bf16", .meaning = "on CUDA: matrix products and convolutions in bfloat16"});
         add_augmentation_keys(keys);
         return keys;

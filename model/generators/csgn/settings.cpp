@@ -2,7 +2,7 @@
 
 #include "base/error.hpp"
 #include "model/generators/generator_settings.hpp"
-#include "model/train/key_table.hpp"
+#include "model/train/shared_keys.hpp"
 
 namespace actformer::model {
 namespace {
@@ -11,13 +11,8 @@ const KeyTable<CsgnSettings>& table() {
     static const auto all = [] {
         using Settings = CsgnSettings;
         KeyTable<Settings> keys;
-        keys.add(&Settings::persons, {.name = "persons",
-                                      .meaning = "persons a clip; 0 takes the dataset's",
-                                      .least = 0,
-                                      .most = 16})
-            .add(&Settings::classes,
-                 {.name = "classes", .meaning = "classes; 0 takes the dataset's", .least = 0, .most = 100000})
-            .add(&Settings::frames, {.name = "frames",
+        add_subject_keys(keys);
+        keys.add(&Settings::frames, {.name = "frames",
                                      .meaning = "frames a window, and the most that can be generated",
                                      .least = csgn_fewest_frames,
                                      .most = 4096})

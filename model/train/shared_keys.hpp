@@ -1,0 +1,40 @@
+// Keys that several methods and recognisers have, each said once. Knows nothing of torch.
+#pragma once
+
+#include "model/train/key_table.hpp"
+
+namespace actformer::model {
+
+/// Whose motions: `persons`, `classes`.
+template <typename Settings>
+void add_subject_keys(KeyTable<Settings>& table) {
+    table
+        .add(&Settings::persons,
+             {.name = "persons", .meaning = "persons a clip; 0 takes the dataset's", .least = 0, .most = 16})
+        .add(&Settings::classes,
+             {.name = "classes", .meaning = "classes; 0 takes the dataset's", .least = 0, .most = 100000});
+}
+
+/// `beta1`, `beta2`.
+template <typename Settings>
+void add_adam_keys(KeyTable<Settings>& table) {
+    table
+        .add(&Settings::beta1,
+             {.name = "beta1", .meaning = "of Adam: decay of the mean gradient", .least = 0, .most = 0.9999})
+        .add(&Settings::beta2, {.name = "beta2",
+                                .meaning = "of Adam: decay of the mean squared gradient",
+                                .least = 0,
+                                .most = 0.999999});
+}
+
+/// `average`.
+template <typename Settings>
+void add_ema_key(KeyTable<Settings>& table) {
+    table.add(&Settings::average,
+              {.name = "average",
+               .meaning = "decay a step of the EMA of a generator's weights, as in 0.999; 0 keeps none",
+               .least = 0,
+               .most = 0.999999});
+}
+
+}  // namespace actformer::model
