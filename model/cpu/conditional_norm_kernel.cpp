@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "model/cpu/conditional_norm.hpp"
+#include "model/cpu/leaky.hpp"
 
 namespace actformer::model::cpu {
 namespace {
@@ -111,7 +112,7 @@ void conditional_norm_forward(const ConditionalNormShape& shape, const T* x, con
 #pragma omp simd
             for (std::int64_t c = 0; c < channels; ++c) {
                 const T number = from[c] * slope[c] + start[c];
-                to[c] = number > 0 ? number : number * leak;
+                to[c] = leaky(number, number, leak);
             }
         });
     }
@@ -134,7 +135,7 @@ void conditional_norm_backward(const ConditionalNormShape& shape, const T* x, co
             const T *from = x + at, *g = grad + out;
 #pragma omp simd
             for (std::int64_t c = 0; c < channels; ++c) {
-                const T here = from[c] * slope[c] + start[c] > 0 ? g[c] : g[c] * leak;
+                const T here = leaky(from[c] * slope[c] + start[c], g[c], leak);
                 shift[c] += here;
                 gain[c] += here * ((from[c] - mean[c]) * inverse[c]);
             }
@@ -153,7 +154,7 @@ void conditional_norm_backward(const ConditionalNormShape& shape, const T* x, co
             T* back = to.x + at;
 #pragma omp simd
             for (std::int64_t c = 0; c < channels; ++c) {
-                const T here = from[c] * slope[c] + start[c] > 0 ? g[c] : g[c] * leak;
+                const T here = leaky(from[c] * slope[c] + start[c], g[c], leak);
                 const T normal = (from[c] - mean[c]) * inverse[c];
                 back[c] = here * slope[c] - inverse[c] * (level[c] + normal * along[c]);
             }

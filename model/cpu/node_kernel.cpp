@@ -1,5 +1,6 @@
 // Graph convolutions, their weights shared by the nodes or every node's own.
 #include "model/cpu/kernel_support.hpp"
+#include "model/cpu/leaky.hpp"
 #include "model/cpu/node_kernels.hpp"
 
 namespace actformer::model::cpu {
@@ -107,10 +108,10 @@ void begin_outputs(const NodeShape& shape, const T* bias, T* y) {
 }
 
 template <typename T>
-void leaky(T* y, std::int64_t count, T leak) {
+void apply_leaky(T* y, std::int64_t count, T leak) {
     if (leak == T(1)) return;
 #pragma omp simd
-    for (std::int64_t i = 0; i < count; ++i) y[i] = y[i] > 0 ? y[i] : y[i] * leak;
+    for (std::int64_t i = 0; i < count; ++i) y[i] = leaky(y[i], y[i], leak);
 }
 
 /// Packs every group's weights; `backward` as rows of outputs, else of inputs.
@@ -201,7 +202,7 @@ class Backward {
             T* masked = to + i;
             const T leak = leak_;
 #pragma omp simd
-            for (std::int64_t c = 0; c < shape_.out; ++c) masked[c] = out[c] > 0 ? g[c] : g[c] * leak;
+            for (std::int64_t c = 0; c < shape_.out; ++c) masked[c] = leaky(out[c], g[c], leak);
         }
         if (!bias_sums_) return;
         for (std::int64_t n = 0; n < samples; ++n)
@@ -336,7 +337,7 @@ void node_forward(const NodeShape& shape, const NodeSums& sums, const T* x, cons
                 }
             }
         }
-        leaky(out, samples * shape.sample_out(), leak);
+        apply_leaky(out, samples * shape.sample_out(), leak);
     }
 }
 
