@@ -63,7 +63,7 @@ TEST(RestJoints, OfAMotionAreThoseOfItsRotations) {
         }
 }
 
-TEST(ActorLosses, OfJointsIsTheSquaredDistanceOfPositions) {
+TEST(RestJoints, ErrorIsTheSquaredDistanceOfPositions) {
     at::manual_seed(1);
     const auto body = some_body();
     for (const auto type : {at::kFloat, at::kDouble})
@@ -82,7 +82,7 @@ TEST(ActorLosses, OfJointsIsTheSquaredDistanceOfPositions) {
         }
 }
 
-TEST(ActorLosses, OfJointsIsNoneWhereAMotionIsItself) {
+TEST(RestJoints, ErrorIsNoneWhereAMotionIsItself) {
     at::manual_seed(2);
     const auto body = some_body();
     const auto motion = some_rotations(2, at::kFloat);
