@@ -221,21 +221,17 @@ double person_differences(const RestSkeleton& skeleton, std::int64_t frames, con
     const auto joints = skeleton.parents.size();
     const auto nodes = static_cast<std::int64_t>(joints) + 1, step = frames * nodes,
                count = rotation_numbers * nodes * lanes<T>;
-    Poses<T> poses(scratch<T>(MadeRows{}, count), nodes), wanted(scratch<T>(RealRows{}, count), nodes),
+    Poses<T> wanted(scratch<T>(RealRows{}, count), nodes),
         gradients(zeroed_scratch<T>(ToRows{}, count), nodes);
-    auto* turns = scratch<Turn<T>>(MadeTurns{}, static_cast<std::ptrdiff_t>(joints));
     auto* real_turns = scratch<Turn<T>>(RealTurns{}, static_cast<std::ptrdiff_t>(joints));
     double sum = 0;
-    for (std::int64_t t = 0; t < frames; t += lanes<T>) {
-        const auto here = std::min<std::int64_t>(lanes<T>, frames - t);
-        poses.read(made + t * nodes, step, here);
+    by_frames(skeleton, frames, made, [&](std::int64_t t, std::int64_t here, const auto& poses, auto* turns) {
         wanted.read(real + t * nodes, step, here);
-        turn_joints(skeleton, poses, turns);
         turn_joints(skeleton, wanted, real_turns);
         sum += static_cast<double>(sum_of(differences(turns, real_turns, joints)));
         turn_joints_back(skeleton, poses, turns, gradients);
         gradients.write(to + t * nodes, step, here);
-    }
+    });
     return sum;
 }
 

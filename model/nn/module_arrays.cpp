@@ -15,6 +15,10 @@ std::vector<std::pair<std::string, at::Tensor>> tensors_of(const torch::nn::Modu
     return all;
 }
 
+std::string state_name(std::size_t place) {
+    return fmt::format("state.{}", place);
+}
+
 }  // namespace
 
 std::vector<Array> arrays_of(const torch::nn::Module& module, const std::string& prefix) {
@@ -32,6 +36,16 @@ void load_arrays(const torch::nn::Module& module, const std::string& prefix, con
                         fmt::join(array.shape, ", "), fmt::join(tensor.sizes(), ", "));
         copy_into(tensor, array, where);
     }
+}
+
+void add_state(std::vector<Array>& arrays, const std::vector<at::Tensor>& tensors) {
+    for (std::size_t i = 0; i < tensors.size(); ++i) arrays.push_back(array_of(state_name(i), tensors[i]));
+}
+
+void load_state(const std::vector<at::Tensor>& tensors, const std::vector<Array>& arrays,
+                const std::string& where) {
+    for (std::size_t i = 0; i < tensors.size(); ++i)
+        copy_into(tensors[i], array_named(arrays, state_name(i), where), where);
 }
 
 const Array& array_named(const std::vector<Array>& arrays, const std::string& name,

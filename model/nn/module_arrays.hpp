@@ -17,6 +17,14 @@ std::vector<Array> arrays_of(const torch::nn::Module& module, const std::string&
 void load_arrays(const torch::nn::Module& module, const std::string& prefix, const std::vector<Array>& arrays,
                  const std::string& where);
 
+/// Adds `tensors` as state.0, state.1, ...: what belongs to a training, but to no module.
+void add_state(std::vector<Array>& arrays, const std::vector<at::Tensor>& tensors);
+
+/// Fills `tensors` with state.0, state.1, ... Throws Error that begins with `where` for what is missing or of
+/// another size.
+void load_state(const std::vector<at::Tensor>& tensors, const std::vector<Array>& arrays,
+                const std::string& where);
+
 /// The array called `name`. Throws Error that begins with `where` where there is none.
 const Array& array_named(const std::vector<Array>& arrays, const std::string& name, const std::string& where);
 

@@ -1,12 +1,10 @@
 #include "model/train/network_learner.hpp"
 
 #include <ATen/core/grad_mode.h>
-#include <fmt/format.h>
 
 #include <utility>
 
 #include "model/nn/module_arrays.hpp"
-#include "model/nn/tensor_array.hpp"
 
 namespace actformer::model {
 
@@ -49,18 +47,14 @@ std::vector<at::Tensor> NetworkLearner::optimiser_state() {
 
 std::vector<Array> NetworkLearner::state() {
     auto all = arrays_of(*network_, "network.");
-    std::size_t i = 0;
-    for (const auto& tensor : optimiser_state())
-        all.push_back(array_of(fmt::format("state.{}", i++), tensor));
+    add_state(all, optimiser_state());
     return all;
 }
 
 void NetworkLearner::load(const std::vector<Array>& state, std::uint64_t steps, const std::string& where) {
     adam_.steps = steps;
     load_arrays(*network_, "network.", state, where);
-    std::size_t i = 0;
-    for (const auto& tensor : optimiser_state())
-        copy_into(tensor, array_named(state, fmt::format("state.{}", i++), where), where);
+    load_state(optimiser_state(), state, where);
 }
 
 void NetworkLearner::share(std::uint64_t steps) {

@@ -6,7 +6,6 @@
 #include "model/generators/adversarial/spread.hpp"
 #include "model/nn/autocast.hpp"
 #include "model/nn/module_arrays.hpp"
-#include "model/nn/tensor_array.hpp"
 #include "model/train/training.hpp"
 
 namespace actformer::model {
@@ -125,9 +124,7 @@ std::vector<at::Tensor> Gan::optimiser_state() {
 std::vector<Array> Gan::state() {
     auto all = arrays_of(generator(), "generator.");
     for (auto& array : arrays_of(*networks_.discriminator, "discriminator.")) all.push_back(std::move(array));
-    std::size_t i = 0;
-    for (const auto& tensor : optimiser_state())
-        all.push_back(array_of(fmt::format("state.{}", i++), tensor));
+    add_state(all, optimiser_state());
     return all;
 }
 
@@ -135,11 +132,7 @@ void Gan::load(const std::vector<Array>& arrays, std::uint64_t steps, const std:
     count(steps);
     load_arrays(generator(), "generator.", arrays, where);
     load_arrays(*networks_.discriminator, "discriminator.", arrays, where);
-    std::size_t i = 0;
-    for (const auto& tensor : optimiser_state()) {
-        const auto name = fmt::format("state.{}", i++);
-        copy_into(tensor, array_named(arrays, name, where), where);
-    }
+    load_state(optimiser_state(), arrays, where);
 }
 
 void Gan::count(std::uint64_t steps) {
