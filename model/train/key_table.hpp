@@ -1,5 +1,5 @@
-// Settings and the configuration's keys that fill them, each said once: member, name, range, meaning; its preset is what the
-// member is from the start.
+// Settings and the configuration's keys that fill them, each said once: member, name, range, meaning; its preset is the
+// member's initial value.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,15 @@ namespace actformer::model {
 template <typename Settings>
 class KeyTable {
   public:
-    /// A member of type bool, string, list of std::int64_t, any number, or an enum whose values `key.choices` name in order.
-    template <typename Owner, typename Member>
-    KeyTable& add(Member Owner::*member, Key key) {
+    /// A member of type bool, string, list of std::int64_t, any number, or an enum whose values `key.choices` name in order;
+    /// `member` is a pointer to it, or a function that takes the settings and returns a reference.
+    template <typename Access>
+    KeyTable& add(Access member, Key key) {
+        using Member = std::remove_cvref_t<std::invoke_result_t<Access, Settings&>>;
         const Settings presets;
-        key.preset = value_of(presets.*member, key);
+        key.preset = value_of(std::invoke(member, presets), key);
         rows_.push_back({key, [member, key](const Config& config, Settings& settings) {
-                             settings.*member = taken<Member>(config, key);
+                             std::invoke(member, settings) = taken<Member>(config, key);
                          }});
         return *this;
     }

@@ -1,31 +1,134 @@
 #include "model/generators/actformer/settings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/error.hpp"
 #include "model/generators/generator_settings.hpp"
+#include "model/train/key_table.hpp"
+#include "model/train/shared_keys.hpp"
 
 namespace actformer::model {
 namespace {
 
-/// The names of an enumeration's values, in their order.
-const std::vector<std::string> prior_names{"gp", "gaussian"};
-const std::vector<std::string> position_names{"concat", "tiled", "independent", "fixed"};
-const std::vector<std::string> start_names{"normal", "sinusoids"};
-const std::vector<std::string> interaction_names{"iformer", "concat"};
-const std::vector<std::string> body_names{"transformer", "graphconv"};
-const std::vector<std::string> persons_names{"concat", "avgpool", "maxpool", "selfatt"};
+/// What a configuration says of both networks; `persons` and `classes` are 0 where it leaves them to the dataset.
+struct Networks {
+    GeneratorSettings g;
+    DiscriminatorSettings d;
+    std::uint32_t persons = 0, classes = 0;
+    bool shared_z = true;
+};
 
-template <typename Enum>
-Enum named(const Config& config, const char* key, const std::vector<std::string>& names) {
-    const auto found = std::find(names.begin(), names.end(), config.get<std::string>(key));
-    return static_cast<Enum>(found - names.begin());
+void add_token_keys(KeyTable<Networks>& keys) {
+    keys.add([](auto& n) -> auto& { return n.g.frames; },
+             {.name = "frames",
+              .meaning = "frames a window, and the most that can be generated",
+              .least = fewest_frames,
+              .most = 4096})
+        .add([](auto& n) -> auto& { return n.g.width; },
+             {.name = "width", .meaning = "numbers a token of the generator", .least = 2, .most = 8192})
+        .add([](auto& n) -> auto& { return n.g.heads; },
+             {.name = "heads", .meaning = "of attention; they divide the width", .least = 1, .most = 1024})
+        .add([](auto& n) -> auto& { return n.g.depth; },
+             {.name = "depth",
+              .meaning = "pairs of I-Former and T-Former; for one person: T-Formers",
+              .least = 1,
+              .most = 64})
+        .add([](auto& n) -> auto& { return n.g.mlp_ratio; },
+             {.name = "mlp_ratio",
+              .meaning = "inner width of a block, times its width",
+              .least = 0.01,
+              .most = 16});
 }
 
-std::uint32_t whole(const Config& config, const char* key) {
-    return static_cast<std::uint32_t>(config.get<std::int64_t>(key));
+void add_prior_keys(KeyTable<Networks>& keys) {
+    keys.add([](auto& n) -> auto& { return n.g.prior.channels; },
+             {.name = "latent", .meaning = "channels of the prior", .least = 1, .most = 8192})
+        .add([](auto& n) -> auto& { return n.g.prior.kind; },
+             {.name = "prior",
+              .meaning = "gp: Gaussian processes over frames; gaussian: one vector a motion",
+              .choices = {"gp", "gaussian"}})
+        .add([](auto& n) -> auto& { return n.g.prior.length_scale; },
+             {.name = "length_scale",
+              .meaning = "frames, of the last channel's process",
+              .least = 0.001,
+              .most = 1e6})
+        .add(&Networks::shared_z, {.name = "shared_z", .meaning = "one draw of the prior for all persons"});
+}
+
+void add_structure_keys(KeyTable<Networks>& keys) {
+    keys.add([](auto& n) -> auto& { return n.g.positions; },
+             {.name = "pe",
+              .meaning = "positions: concat [frames, persons], tiled, independent or fixed",
+              .choices = {"concat", "tiled", "independent", "fixed"}})
+        .add([](auto& n) -> auto& { return n.g.positions_start; },
+             {.name = "pe_start",
+              .meaning =
+                  "trained positions begin at: normal (deviation 0.02), or sinusoids unless independent",
+              .choices = {"normal", "sinusoids"}})
+        .add([](auto& n) -> auto& { return n.g.interaction; },
+             {.name = "interaction",
+              .meaning = "between persons: iformer, or concat for one token",
+              .choices = {"iformer", "concat"}})
+        .add([](auto& n) -> auto& { return n.g.body; },
+             {.name = "body",
+              .meaning = "from token to pose: transformer (linear) or graphconv",
+              .choices = {"transformer", "graphconv"}})
+        .add([](auto& n) -> auto& { return n.g.smooth; },
+             {.name = "smooth",
+              .meaning = "frames: deviation of a Gaussian over the tokens before the head; 0 for none",
+              .least = 0,
+              .most = 60})
+        .add([](auto& n) -> auto& { return n.g.smooth_root; },
+             {.name = "smooth_root",
+              .meaning = "frames: deviation of a Gaussian over where the body is; 0 for none",
+              .least = 0,
+              .most = 60});
+}
+
+void add_discriminator_keys(KeyTable<Networks>& keys) {
+    keys.add([](auto& n) -> auto& { return n.d.width; },
+             {.name = "d_width",
+              .meaning = "channels of the discriminator's first layer",
+              .least = 1,
+              .most = 1024})
+        .add([](auto& n) -> auto& { return n.d.differences; },
+             {.name = "d_differences",
+              .meaning = "over frames, that the discriminator sees: 1 velocities, 2 accelerations too",
+              .least = 1,
+              .most = 2})
+        .add([](auto& n) -> auto& { return n.d.pose_gain; },
+             {.name = "d_poses",
+              .meaning = "times the poses that the discriminator sees",
+              .least = 0.01,
+              .most = 100})
+        .add([](auto& n) -> auto& { return n.d.difference_gain; },
+             {.name = "d_gain",
+              .meaning = "times the differences that the discriminator sees (its square times accelerations)",
+              .least = 0.01,
+              .most = 100})
+        .add([](auto& n) -> auto& { return n.d.joint_gain; },
+             {.name = "d_joints",
+              .meaning = "times the velocities of joints, for the discriminator to see; 0: it sees none",
+              .least = 0,
+              .most = 1000})
+        .add([](auto& n) -> auto& { return n.d.persons_in; },
+             {.name = "d_persons",
+              .meaning = "persons in the discriminator: concat, or pooled features",
+              .choices = {"concat", "avgpool", "maxpool", "selfatt"}});
+}
+
+const KeyTable<Networks>& network_table() {
+    static const auto all = [] {
+        KeyTable<Networks> keys;
+        add_subject_keys(keys);
+        add_token_keys(keys);
+        add_prior_keys(keys);
+        add_structure_keys(keys);
+        add_discriminator_keys(keys);
+        return keys;
+    }();
+    return all;
 }
 
 void check_motion(const char* network, std::uint32_t nodes, std::uint32_t persons, std::uint32_t classes) {
@@ -62,83 +165,30 @@ void check(const DiscriminatorSettings& s) {
 }
 
 std::vector<Key> network_keys() {
-    using Number = std::int64_t;
-    return {
-        {"persons", Number{0}, "persons a clip; 0 takes the dataset's", 0, 16},
-        {"classes", Number{0}, "classes; 0 takes the dataset's", 0, 100000},
-        {"frames", Number{60}, "frames a window, and the most that can be generated", fewest_frames, 4096},
-        {"width", Number{200}, "numbers a token of the generator", 2, 8192},
-        {"heads", Number{8}, "of attention; they divide the width", 1, 1024},
-        {"depth", Number{2}, "pairs of I-Former and T-Former; for one person: T-Formers", 1, 64},
-        {"mlp_ratio", 2.0, "inner width of a block, times its width", 0.01, 16},
-        {"latent", Number{120}, "channels of the prior", 1, 8192},
-        {"prior", std::string("gp"), "gp: Gaussian processes over frames; gaussian: one vector a motion", 0,
-         0, prior_names},
-        {"length_scale", 100.0, "frames, of the last channel's process", 0.001, 1e6},
-        {"shared_z", true, "one draw of the prior for all persons"},
-        {"pe", std::string("tiled"), "positions: concat [frames, persons], tiled, independent or fixed", 0, 0,
-         position_names},
-        {"pe_start", std::string("normal"),
-         "trained positions begin at: normal (deviation 0.02), or sinusoids unless independent", 0, 0,
-         start_names},
-        {"interaction", std::string("iformer"), "between persons: iformer, or concat for one token", 0, 0,
-         interaction_names},
-        {"body", std::string("transformer"), "from token to pose: transformer (linear) or graphconv", 0, 0,
-         body_names},
-        {"smooth", 0.0, "frames: deviation of a Gaussian over the tokens before the head; 0 for none", 0, 60},
-        {"smooth_root", 0.0, "frames: deviation of a Gaussian over where the body is; 0 for none", 0, 60},
-        {"d_width", Number{32}, "channels of the discriminator's first layer", 1, 1024},
-        {"d_differences", Number{1},
-         "over frames, that the discriminator sees: 1 velocities, 2 accelerations too", 1, 2},
-        {"d_poses", 1.0, "times the poses that the discriminator sees", 0.01, 100},
-        {"d_gain", 1.0, "times the differences that the discriminator sees (its square times accelerations)",
-         0.01, 100},
-        {"d_joints", 0.0, "times the velocities of joints, for the discriminator to see; 0: it sees none", 0,
-         1000},
-        {"d_persons", std::string("concat"), "persons in the discriminator: concat, or pooled features", 0, 0,
-         persons_names}};
+    return network_table().keys();
 }
 
 GeneratorSettings generator_settings(const Config& config, const MotionSpec& spec) {
     check_subjects(config, spec.persons, spec.classes, spec.where);
-    GeneratorSettings s;
+    const auto networks = network_table().read(config);
+    auto s = networks.g;
     s.parents = spec.representation.node_parents(spec.topology);
+    s.representation = spec.representation;
     s.persons = spec.persons;
     s.classes = spec.classes;
-    s.representation = spec.representation;
-    s.frames = whole(config, "frames");
-    s.width = whole(config, "width");
-    s.heads = whole(config, "heads");
-    s.depth = whole(config, "depth");
-    s.mlp_ratio = config.get<double>("mlp_ratio");
-    s.prior.kind = named<PriorKind>(config, "prior", prior_names);
-    s.prior.channels = whole(config, "latent");
-    s.prior.length_scale = config.get<double>("length_scale");
-    s.prior.streams = config.get<bool>("shared_z") ? 1 : s.persons;
-    s.positions = named<Positions>(config, "pe", position_names);
-    s.positions_start = named<PositionsStart>(config, "pe_start", start_names);
-    s.interaction = named<Interaction>(config, "interaction", interaction_names);
-    s.body = named<Body>(config, "body", body_names);
-    s.smooth = config.get<double>("smooth");
-    s.smooth_root = config.get<double>("smooth_root");
+    s.prior.streams = networks.shared_z ? 1 : s.persons;
     check(s);
     return s;
 }
 
 DiscriminatorSettings discriminator_settings(const Config& config, const MotionSpec& spec) {
     check_subjects(config, spec.persons, spec.classes, spec.where);
-    DiscriminatorSettings s;
+    auto s = network_table().read(config).d;
     s.parents = spec.representation.node_parents(spec.topology);
     s.persons = spec.persons;
     s.classes = spec.classes;
     s.numbers = spec.numbers();
-    s.width = whole(config, "d_width");
-    s.differences = whole(config, "d_differences");
-    s.pose_gain = config.get<double>("d_poses");
-    s.difference_gain = config.get<double>("d_gain");
-    s.joint_gain = config.get<double>("d_joints");
     if (s.joint_gain > 0) s.motions = spec;
-    s.persons_in = named<PersonsInD>(config, "d_persons", persons_names);
     check(s);
     return s;
 }
