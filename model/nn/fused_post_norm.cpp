@@ -35,17 +35,9 @@ cpu::AttentionShape attention_shape(const at::Tensor& x, const Half& half) {
     return {sequence_shape(x), half.heads, false};
 }
 
-/// Two linear maps and the norm behind, as Functions save them behind x.
-template <typename T>
-cpu::AttentionNormWeights<T> attention_weights(const at::Tensor* w, const Half& half) {
-    return {linear_of<T>(w[0], w[1]),
-            linear_of<T>(w[2], w[3]),
-            {norm_of<T>(w[4], w[5]), half.epsilon, half.dropout.branch},
-            half.dropout.within};
-}
-
-template <typename T>
-cpu::MlpNormWeights<T> mlp_weights(const at::Tensor* w, const Half& half) {
+/// AttentionNormWeights or MlpNormWeights: two linear maps and the norm behind, as Functions save them behind x.
+template <template <typename> class Weights, typename T>
+Weights<T> branch_weights(const at::Tensor* w, const Half& half) {
     return {linear_of<T>(w[0], w[1]),
             linear_of<T>(w[2], w[3]),
             {norm_of<T>(w[4], w[5]), half.epsilon, half.dropout.branch},
@@ -63,23 +55,36 @@ cpu::SumNormWeights<T> sum_weights(const at::Tensor* w, const Half& half) {
 
 constexpr const char *of_attention = "attention", *of_mlp = "MLP", *of_sum = "attention to one token";
 
+/// Tensors to keep for the backward pass; undefined where there is none.
+struct KeptAttention {
+    at::Tensor qkv, seen, sum;
+};
+
 struct AttentionNorm : Function<AttentionNorm> {
+    static at::Tensor run_forward(const at::Tensor& x, const at::Tensor* weights, const Half& half,
+                                  const KeptAttention& kept) {
+        auto y = at::empty_like(x);
+        timed(of_attention, false, x, [&](auto number) {
+            using T = decltype(number);
+            cpu::attention_norm_forward<T>(attention_shape(x, half), in<T>(x),
+                                           branch_weights<cpu::AttentionNormWeights, T>(weights, half),
+                                           {in<T>(kept.qkv), in<T>(kept.seen), in<T>(kept.sum)}, in<T>(y),
+                                           threads());
+        });
+        return y;
+    }
+
     static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& qkv,
                               const at::Tensor& qkv_bias, const at::Tensor& proj, const at::Tensor& proj_bias,
                               const at::Tensor& norm, const at::Tensor& norm_bias, const HalfPointer& half) {
         const auto shape = attention_shape(x, *half);
-        auto kept_qkv = at::empty({shape.tokens.rows(), shape.qkv_pitch()}, x.options()),
-             kept_seen = at::empty({shape.tokens.rows(), shape.seen_pitch()}, x.options()),
-             sum = at::empty_like(x), y = at::empty_like(x);
+        const KeptAttention kept{at::empty({shape.tokens.rows(), shape.qkv_pitch()}, x.options()),
+                                 at::empty({shape.tokens.rows(), shape.seen_pitch()}, x.options()),
+                                 at::empty_like(x)};
         const at::Tensor weights[] = {qkv, qkv_bias, proj, proj_bias, norm, norm_bias};
-        timed(of_attention, false, x, [&](auto number) {
-            using T = decltype(number);
-            cpu::attention_norm_forward<T>(shape, in<T>(x), attention_weights<T>(weights, *half),
-                                           {in<T>(kept_qkv), in<T>(kept_seen), in<T>(sum)}, in<T>(y),
-                                           threads());
-        });
+        auto y = run_forward(x, weights, *half, kept);
         context->save_for_backward(
-            {x, qkv, qkv_bias, proj, proj_bias, norm, norm_bias, kept_qkv, kept_seen, sum});
+            {x, qkv, qkv_bias, proj, proj_bias, norm, norm_bias, kept.qkv, kept.seen, kept.sum});
         context->saved_data["half"] = c10::IValue::make_capsule(half);
         return y;
     }
@@ -93,28 +98,38 @@ struct AttentionNorm : Function<AttentionNorm> {
         const Gradients qkv(saved[1], saved[2]), proj(saved[3], saved[4]), norm(saved[5], saved[6]);
         timed(of_attention, true, x, [&](auto number) {
             using T = decltype(number);
-            cpu::attention_norm_backward<T>(
-                attention_shape(x, half), in<T>(x), attention_weights<T>(&saved[1], half),
-                {in<T>(saved[7]), in<T>(saved[8]), in<T>(saved[9])}, in<T>(grad),
-                {in<T>(to_x), norm.to<T>(), qkv.to<T>(), proj.to<T>()}, threads());
+            cpu::attention_norm_backward<T>(attention_shape(x, half), in<T>(x),
+                                            branch_weights<cpu::AttentionNormWeights, T>(&saved[1], half),
+                                            {in<T>(saved[7]), in<T>(saved[8]), in<T>(saved[9])}, in<T>(grad),
+                                            {in<T>(to_x), norm.to<T>(), qkv.to<T>(), proj.to<T>()},
+                                            threads());
         });
         return {to_x, qkv.weight, qkv.bias, proj.weight, proj.bias, norm.weight, norm.bias, {}};
     }
 };
 
 struct MlpNorm : Function<MlpNorm> {
+    /// Keeps up's outputs and the sums for the backward pass where they are defined.
+    static at::Tensor run_forward(const at::Tensor& x, const at::Tensor* weights, const Half& half,
+                                  const at::Tensor& kept_up, const at::Tensor& sum) {
+        auto y = at::empty_like(x);
+        timed(of_mlp, false, x, [&](auto number) {
+            using T = decltype(number);
+            cpu::mlp_norm_forward<T>({sequence_shape(x), weights[0].size(0)}, in<T>(x),
+                                     branch_weights<cpu::MlpNormWeights, T>(weights, half),
+                                     {in<T>(kept_up), in<T>(sum)}, in<T>(y), threads());
+        });
+        return y;
+    }
+
     static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& up,
                               const at::Tensor& up_bias, const at::Tensor& down, const at::Tensor& down_bias,
                               const at::Tensor& norm, const at::Tensor& norm_bias, const HalfPointer& half) {
         const cpu::MlpShape shape{sequence_shape(x), up.size(0)};
-        auto kept_up = at::empty({shape.tokens.rows(), shape.hidden_pitch()}, x.options()),
-             sum = at::empty_like(x), y = at::empty_like(x);
+        const auto kept_up = at::empty({shape.tokens.rows(), shape.hidden_pitch()}, x.options()),
+                   sum = at::empty_like(x);
         const at::Tensor weights[] = {up, up_bias, down, down_bias, norm, norm_bias};
-        timed(of_mlp, false, x, [&](auto number) {
-            using T = decltype(number);
-            cpu::mlp_norm_forward<T>(shape, in<T>(x), mlp_weights<T>(weights, *half),
-                                     {in<T>(kept_up), in<T>(sum)}, in<T>(y), threads());
-        });
+        auto y = run_forward(x, weights, *half, kept_up, sum);
         context->save_for_backward({x, up, up_bias, down, down_bias, norm, norm_bias, kept_up, sum});
         context->saved_data["half"] = c10::IValue::make_capsule(half);
         return y;
@@ -130,25 +145,33 @@ struct MlpNorm : Function<MlpNorm> {
         timed(of_mlp, true, x, [&](auto number) {
             using T = decltype(number);
             cpu::mlp_norm_backward<T>({sequence_shape(x), saved[1].size(0)}, in<T>(x),
-                                      mlp_weights<T>(&saved[1], half), {in<T>(saved[7]), in<T>(saved[8])},
-                                      in<T>(grad), {in<T>(to_x), norm.to<T>(), up.to<T>(), down.to<T>()},
-                                      threads());
+                                      branch_weights<cpu::MlpNormWeights, T>(&saved[1], half),
+                                      {in<T>(saved[7]), in<T>(saved[8])}, in<T>(grad),
+                                      {in<T>(to_x), norm.to<T>(), up.to<T>(), down.to<T>()}, threads());
         });
         return {to_x, up.weight, up.bias, down.weight, down.bias, norm.weight, norm.bias, {}};
     }
 };
 
 struct SumNorm : Function<SumNorm> {
+    /// Keeps the sums for the backward pass where `sum` is defined.
+    static at::Tensor run_forward(const at::Tensor& x, const at::Tensor* weights, const Half& half,
+                                  const at::Tensor& sum) {
+        auto y = at::empty_like(x);
+        timed(of_sum, false, x, [&](auto number) {
+            using T = decltype(number);
+            cpu::sum_norm_forward<T>({sequence_shape(x), weights[0].size(1)}, in<T>(x),
+                                     sum_weights<T>(weights, half), in<T>(sum), in<T>(y), threads());
+        });
+        return y;
+    }
+
     static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& parts,
                               const at::Tensor& bias, const at::Tensor& norm, const at::Tensor& norm_bias,
                               const HalfPointer& half) {
-        auto sum = at::empty_like(x), y = at::empty_like(x);
+        const auto sum = at::empty_like(x);
         const at::Tensor weights[] = {parts, bias, norm, norm_bias};
-        timed(of_sum, false, x, [&](auto number) {
-            using T = decltype(number);
-            cpu::sum_norm_forward<T>({sequence_shape(x), parts.size(1)}, in<T>(x),
-                                     sum_weights<T>(weights, *half), in<T>(sum), in<T>(y), threads());
-        });
+        auto y = run_forward(x, weights, *half, sum);
         context->save_for_backward({parts, bias, norm, norm_bias, sum});
         context->saved_data["half"] = c10::IValue::make_capsule(half);
         return y;
@@ -183,16 +206,9 @@ at::Tensor fused_attention_norm(const at::Tensor& x, const LinearTensors& qkv, c
     if (keeps())
         return AttentionNorm::apply(x, qkv.weight, qkv.bias, proj.weight, proj.bias, post.norm.weight,
                                     post.norm.bias, how);
-    auto y = at::empty_like(x);
     const at::Tensor weights[] = {qkv.weight, qkv.bias,         proj.weight,
                                   proj.bias,  post.norm.weight, post.norm.bias};
-    timed(of_attention, false, x, [&](auto number) {
-        using T = decltype(number);
-        cpu::attention_norm_forward<T>(attention_shape(x, *how), in<T>(x),
-                                       attention_weights<T>(weights, *how), {nullptr, nullptr, nullptr},
-                                       in<T>(y), threads());
-    });
-    return y;
+    return AttentionNorm::run_forward(x, weights, *how, {});
 }
 
 at::Tensor fused_mlp_norm(const at::Tensor& x, const LinearTensors& up, const LinearTensors& down,
@@ -201,29 +217,17 @@ at::Tensor fused_mlp_norm(const at::Tensor& x, const LinearTensors& up, const Li
     if (keeps())
         return MlpNorm::apply(x, up.weight, up.bias, down.weight, down.bias, post.norm.weight, post.norm.bias,
                               how);
-    auto y = at::empty_like(x);
     const at::Tensor weights[] = {up.weight, up.bias,          down.weight,
                                   down.bias, post.norm.weight, post.norm.bias};
-    timed(of_mlp, false, x, [&](auto number) {
-        using T = decltype(number);
-        cpu::mlp_norm_forward<T>({sequence_shape(x), up.weight.size(0)}, in<T>(x),
-                                 mlp_weights<T>(weights, *how), {nullptr, nullptr}, in<T>(y), threads());
-    });
-    return y;
+    return MlpNorm::run_forward(x, weights, *how, {}, {});
 }
 
 at::Tensor fused_sum_norm(const at::Tensor& x, const at::Tensor& parts, const at::Tensor& bias,
                           const PostNormTensors& post, const BranchDropout& dropout) {
     const auto how = half(0, post, dropout);
     if (keeps()) return SumNorm::apply(x, parts, bias, post.norm.weight, post.norm.bias, how);
-    auto y = at::empty_like(x);
     const at::Tensor weights[] = {parts, bias, post.norm.weight, post.norm.bias};
-    timed(of_sum, false, x, [&](auto number) {
-        using T = decltype(number);
-        cpu::sum_norm_forward<T>({sequence_shape(x), parts.size(1)}, in<T>(x), sum_weights<T>(weights, *how),
-                                 nullptr, in<T>(y), threads());
-    });
-    return y;
+    return SumNorm::run_forward(x, weights, *how, {});
 }
 
 at::Tensor kept_numbers(const at::Tensor& x, const cpu::Dropout& dropout) {
