@@ -1,4 +1,4 @@
-// The first half of a transformer block, a sample at a time: long sequences as matrix products, short ones in plain loops.
+// The first sublayer of a transformer block, a sample at a time: long sequences as matrix products, short ones in plain loops.
 #include "model/cpu/kernel_support.hpp"
 #include "model/cpu/sequence_attention.hpp"
 #include "model/cpu/transformer_kernels.hpp"

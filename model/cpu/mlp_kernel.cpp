@@ -1,4 +1,4 @@
-// The second half of a transformer block, a sample at a time.
+// The second sublayer of a transformer block, a sample at a time.
 #include "model/cpu/kernel_support.hpp"
 #include "model/cpu/transformer_kernels.hpp"
 #include "model/cpu/vector_math.hpp"

@@ -1,4 +1,4 @@
-// Halves of a transformer block that is normalised behind its sums, a sample at a time.
+// Sublayers of a post-norm transformer block, a sample at a time.
 #include "model/cpu/post_norm_kernels.hpp"
 
 #include "model/cpu/dropped_rows.hpp"

@@ -1,4 +1,4 @@
-// Halves of a transformer block that is normalised behind its sums, as ACTOR's are (Petrovich et al., ICCV 2021), on processors,
+// Sublayers of a post-norm transformer block, as ACTOR's are (Petrovich et al., ICCV 2021), on processors,
 // forward and backward; else as transformer_kernels.hpp. What each of them gives is norm(x + dropout(branch)).
 //
 // A sample's rows are one sequence: shapes have one person and do not look over persons.

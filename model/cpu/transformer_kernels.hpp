@@ -1,6 +1,6 @@
-// The generator's transformer halves on processors, forward and backward: plain arrays in, plain arrays out, T float or double.
+// Sublayers of the generator's transformer blocks on processors, forward and backward: plain arrays in, plain arrays out, T float or double.
 //
-// Tokens are (samples, persons, tokens, width). One half of a block is one call, so that a sample's rows stay in the cache
+// Tokens are (samples, persons, tokens, width). One sublayer is one call, so that a sample's rows stay in the cache
 // from the normalisation to the residual, and only what the backward pass needs is written out. Results depend on the number
 // of threads (in the order of a weight gradient's sums), not on their timing.
 #pragma once

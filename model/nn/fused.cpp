@@ -92,7 +92,7 @@ const char* attention_name(const cpu::AttentionShape& shape) {
     return shape.over_persons ? "attention over persons" : "attention over frames";
 }
 
-/// A half's six weights, as Function saves them behind x.
+/// A sublayer's six weights, as Function saves them behind x.
 template <typename T>
 cpu::AttentionWeights<T> attention_weights(const at::Tensor* w) {
     return {norm_of<T>(w[0], w[1]), linear_of<T>(w[2], w[3]), linear_of<T>(w[4], w[5])};

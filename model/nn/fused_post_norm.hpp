@@ -1,4 +1,4 @@
-// Halves of transformer blocks that are normalised behind their sums, on processors, as differentiable functions of tensors. Includes torch
+// Sublayers of post-norm transformer blocks, on processors, as differentiable functions of tensors. Includes torch
 // headers.
 //
 // Tensors are as in fused.hpp. x is (N, T, W): a sample's tokens are one sequence. Each gives norm(x + dropout(branch)).
