@@ -39,6 +39,12 @@ class WeightStore {
         return {normalised(name + ".weight", iterate), at(name + ".bias")};
     }
 
+    /// x (..., in) through such a layer -> (..., out), in libtorch's operators.
+    at::Tensor linear(const at::Tensor& x, const std::string& name, bool iterate) const {
+        const auto [weight, bias] = layer(name, iterate);
+        return at::linear(x, weight, bias);
+    }
+
   private:
     struct Entry {
         at::Tensor weight, u, v;

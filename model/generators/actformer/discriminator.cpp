@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "model/generators/graph/motion_input.hpp"
 #include "model/generators/graph/node_convolution.hpp"
+#include "model/nn/self_attention.hpp"
 
 namespace actformer::model {
 namespace {
@@ -31,10 +32,6 @@ Discriminator::Discriminator(DiscriminatorSettings settings, std::uint64_t seed,
     }
     const auto coarse = convolutions_.back().sums.outputs;
     node_sums_.push_back(std::make_shared<cpu::NodeSums>(1, 1, coarse, std::vector<float>(coarse, 1)));
-}
-
-at::Tensor Discriminator::linear(const at::Tensor& x, const std::string& name) const {
-    return at::linear(x, weights_.normalised(name + ".weight", is_training()), weights_.at(name + ".bias"));
 }
 
 /// x (N, C, K, T): the nodes' own convolutions as groups of one, then the sums into output nodes.
@@ -134,13 +131,9 @@ at::Tensor Discriminator::fused_features(const at::Tensor& motion) const {
 at::Tensor Discriminator::pooled(const at::Tensor& features) const {
     if (settings_.persons_in == PersonsInD::avgpool) return features.mean(1);
     if (settings_.persons_in == PersonsInD::maxpool) return features.amax({1});
-    const auto n = features.size(0), persons = features.size(1), width = features.size(2),
-               each = width / person_heads;
-    const auto qkv =
-        linear(features, "persons.qkv").view({n, persons, 3, person_heads, each}).permute({2, 0, 3, 1, 4});
-    const auto scores = qkv[0].matmul(qkv[1].transpose(2, 3)) * std::pow(static_cast<double>(each), -0.5);
-    const auto seen = scores.softmax(-1).matmul(qkv[2]).transpose(1, 2).reshape({n, persons, width});
-    return (features + linear(seen, "persons.proj")).mean(1);
+    const auto interaction = self_attention(features, weights_.layer("persons.qkv", is_training()),
+                                            weights_.layer("persons.proj", is_training()), person_heads);
+    return (features + interaction).mean(1);
 }
 
 at::Tensor Discriminator::forward(const at::Tensor& motion, const at::Tensor& labels) {
@@ -157,7 +150,7 @@ at::Tensor Discriminator::forward(const at::Tensor& motion, const at::Tensor& la
             ? features(motion)
             : pooled(features(motion.reshape({n * persons, numbers, t, nodes})).view({n, persons, -1}));
     const auto classes = weights_.normalised("classes.weight", is_training()).index_select(0, labels);
-    return linear(found, "score").squeeze(1) + (classes * found).sum(1);
+    return weights_.linear(found, "score", is_training()).squeeze(1) + (classes * found).sum(1);
 }
 
 }  // namespace actformer::model

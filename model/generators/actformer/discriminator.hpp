@@ -26,7 +26,6 @@ class Discriminator : public GanDiscriminator {
 
   private:
     bool takes_fused_path(const at::Tensor& motion) const { return weights_.fused && motion.is_cpu(); }
-    at::Tensor linear(const at::Tensor& x, const std::string& name) const;
     at::Tensor seen(const at::Tensor& motion) const;
     at::Tensor convolved(const at::Tensor& x, std::size_t i) const;
     at::Tensor features(const at::Tensor& motion) const;

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "model/generators/finish.hpp"
 #include "model/generators/graph/node_convolution.hpp"
+#include "model/nn/self_attention.hpp"
 
 namespace actformer::model {
 namespace {
@@ -51,10 +52,6 @@ Generator::Generator(GeneratorSettings settings, std::uint64_t seed, at::ScalarT
         register_buffer("within_fine", tensor_of(hop_matrix(levels.fine, all_nodes(levels.fine)), type));
 }
 
-at::Tensor Generator::linear(const at::Tensor& x, const std::string& name) const {
-    return at::linear(x, weights_.normalised(name + ".weight", is_training()), weights_.at(name + ".bias"));
-}
-
 /// (T+1, P, W) of the table.
 at::Tensor Generator::positions() const {
     if (settings_.positions != Positions::concat || settings_.tokens_a_frame() == 1)
@@ -80,22 +77,14 @@ at::Tensor Generator::tokens(const at::Tensor& latent, const at::Tensor& labels)
     return all.expand({n, persons, t + 1, settings_.width}) + places;
 }
 
-at::Tensor Generator::attention(const at::Tensor& x, const std::string& prefix) const {
-    const auto n = x.size(0), length = x.size(1), heads = std::int64_t{settings_.heads};
-    const auto each = settings_.width / heads;
-    const auto qkv = linear(x, prefix + "qkv").view({n, length, 3, heads, each}).permute({2, 0, 3, 1, 4});
-    const auto scores = qkv[0].matmul(qkv[1].transpose(2, 3)) * std::pow(static_cast<double>(each), -0.5);
-    const auto seen = scores.softmax(-1).matmul(qkv[2]);
-    return linear(seen.transpose(1, 2).reshape({n, length, settings_.width}), prefix + "proj");
-}
-
 /// x (sequences, tokens, W).
 at::Tensor Generator::block(const at::Tensor& x, const std::string& prefix) const {
     const auto norm = [&](const at::Tensor& v, const std::string& name) {
         return at::layer_norm(v, {settings_.width}, weights_.at(prefix + name + ".weight"),
                               weights_.at(prefix + name + ".bias"), norm_epsilon);
     };
-    const auto y = x + attention(norm(x, "norm1"), prefix);
+    const auto y = x + self_attention(norm(x, "norm1"), weights_.layer(prefix + "qkv", is_training()),
+                                      weights_.layer(prefix + "proj", is_training()), settings_.heads);
     return y + linear(at::gelu(linear(norm(y, "norm2"), prefix + "up")), prefix + "down");
 }
 

@@ -32,7 +32,9 @@ class Generator : public GanGenerator {
 
   private:
     bool takes_fused_path(const at::Tensor& latent) const { return weights_.fused && latent.is_cpu(); }
-    at::Tensor linear(const at::Tensor& x, const std::string& name) const;
+    at::Tensor linear(const at::Tensor& x, const std::string& name) const {
+        return weights_.linear(x, name, is_training());
+    }
     at::Tensor per_token(const at::Tensor& latent) const;
     at::Tensor tokens(const at::Tensor& latent, const at::Tensor& labels) const;
     at::Tensor transformed(at::Tensor x) const;
@@ -43,7 +45,6 @@ class Generator : public GanGenerator {
     at::Tensor with_smooth_root(const at::Tensor& motion) const;
     at::Tensor positions() const;
     at::Tensor block(const at::Tensor& x, const std::string& prefix) const;
-    at::Tensor attention(const at::Tensor& x, const std::string& prefix) const;
     at::Tensor poses(const at::Tensor& x) const;
     at::Tensor finished(const at::Tensor& poses) const;
     at::Tensor graph_layer(const at::Tensor& x, const std::string& name, const at::Tensor& sums) const;

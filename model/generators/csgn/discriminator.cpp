@@ -49,9 +49,7 @@ at::Tensor CsgnDiscriminator::forward(const at::Tensor& motion, const at::Tensor
                     motion.size(2), csgn_fewest_frames);
     const auto found = features(motion);
     const auto classes = weights_.normalised("classes.weight", is_training()).index_select(0, labels);
-    const auto score =
-        at::linear(found, weights_.normalised("score.weight", is_training()), weights_.at("score.bias"));
-    return score.squeeze(1) + (classes * found).sum(1);
+    return weights_.linear(found, "score", is_training()).squeeze(1) + (classes * found).sum(1);
 }
 
 }  // namespace actformer::model
