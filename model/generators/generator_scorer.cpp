@@ -20,11 +20,12 @@ std::vector<std::uint32_t> classes_of(const kernels::ClipStore& clips) {
 }  // namespace
 
 GeneratorScorer::GeneratorScorer(const Config& config, const MotionSpec& spec, const ingest::Dataset& dataset,
-                                 const kernels::ClipStore& clips, std::string device)
+                                 const kernels::ClipStore& clips, std::string device, Learner& learner)
     : config_(config),
       spec_(spec),
       settings_(generator_trainer_settings(config)),
       device_(std::move(device)),
+      learner_(learner),
       frames_(static_cast<std::uint32_t>(config.get<std::int64_t>("frames"))),
       classes_(classes_of(clips)),
       judge_(settings_.recogniser, settings_.opencl, dataset, clips, frames_) {}
@@ -45,10 +46,10 @@ Labelled GeneratorScorer::motions_of(const std::vector<Array>& weights) const {
     return all;
 }
 
-void GeneratorScorer::begin(Learner& learner, std::uint64_t epoch, std::uint64_t step) {
+void GeneratorScorer::begin(std::uint64_t epoch, std::uint64_t step) {
     scores_.report.epoch = epoch;
     scores_.report.step = step;
-    scores_.weights = learner.keeps_ema() ? learner.ema_weights() : learner.weights();
+    scores_.weights = learner_.keeps_ema() ? learner_.ema_weights() : learner_.weights();
     auto motions = motions_of(scores_.weights);
     try {
         judged_ = std::async(std::launch::async,

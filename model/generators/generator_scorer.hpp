@@ -13,17 +13,17 @@ namespace actformer::model {
 
 class GeneratorScorer : public Scorer {
   public:
-    /// As the settings say; `clips` are the training's split of `dataset`, and no motions are asked of classes without one.
-    /// Throws Error where the recogniser does not fit the dataset.
+    /// Scores `learner`, as the settings say; `clips` are the training's split of `dataset`, and no motions are asked of classes
+    /// without one. The learner outlives the scorer. Throws Error where the recogniser does not fit the dataset.
     GeneratorScorer(const Config& config, const MotionSpec& spec, const ingest::Dataset& dataset,
-                    const kernels::ClipStore& clips, std::string device);
+                    const kernels::ClipStore& clips, std::string device, Learner& learner);
 
     const Judge& judge() const { return judge_; }
 
     bool due(std::uint64_t epoch, bool last) const override {
         return last || epoch % settings_.score_every == 0;
     }
-    void begin(Learner& learner, std::uint64_t epoch, std::uint64_t step) override;
+    void begin(std::uint64_t epoch, std::uint64_t step) override;
     std::optional<Scores> end() override;
     bool in_background() const override { return true; }
     std::string fingerprint() const override { return judge_.checksum(); }
@@ -35,6 +35,7 @@ class GeneratorScorer : public Scorer {
     MotionSpec spec_;
     GeneratorTrainerSettings settings_;
     std::string device_;  ///< of libtorch
+    Learner& learner_;
     std::uint32_t frames_;
     std::vector<std::uint32_t> classes_;  ///< that have clips
     Judge judge_;

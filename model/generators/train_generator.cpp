@@ -38,7 +38,7 @@ TrainingResult train_here(const Config& config, const std::filesystem::path& run
     const auto learner = method.learner(config, spec, setup);
     std::unique_ptr<GeneratorScorer> scorer;
     if (place.leads() && !settings.recogniser.empty()) {
-        scorer = std::make_unique<GeneratorScorer>(config, spec, dataset, clips, device_name);
+        scorer = std::make_unique<GeneratorScorer>(config, spec, dataset, clips, device_name, *learner);
         if (events.note)
             events.note(fmt::format("the recogniser knows {:.1f} % of the {} real windows of split {}",
                                     100 * scorer->judge().real_accuracy(), scorer->judge().real_windows(),

@@ -65,8 +65,8 @@ eval::Confusion RecogniserLearner::confusion_on(const kernels::ClipStore& clips)
     return confusion;
 }
 
-void TestSplitScorer::begin(Learner& learner, std::uint64_t epoch, std::uint64_t step) {
-    confusion_ = dynamic_cast<RecogniserLearner&>(learner).confusion_on(clips_);
+void TestSplitScorer::begin(std::uint64_t epoch, std::uint64_t step) {
+    confusion_ = learner_.confusion_on(clips_);
     const auto accuracy = confusion_->mean_class_accuracy();
     auto& scores = scores_.emplace();
     scores.report.epoch = epoch;
@@ -74,7 +74,7 @@ void TestSplitScorer::begin(Learner& learner, std::uint64_t epoch, std::uint64_t
     scores.report.values["class_accuracy"] = scores.merit = accuracy;
     scores.report.values["sample_accuracy"] = confusion_->sample_accuracy();
     scores.report.values["confusion"] = confusion_->rows();
-    scores.weights = learner.weights();
+    scores.weights = learner_.weights();
 }
 
 }  // namespace actformer::model

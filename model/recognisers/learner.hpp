@@ -46,11 +46,12 @@ class RecogniserLearner : public Learner {
 
 class TestSplitScorer : public Scorer {
   public:
-    TestSplitScorer(std::string split, const kernels::ClipStore& clips)
-        : split_(std::move(split)), clips_(clips) {}
+    /// Scores `learner`, the one that is trained, on `clips`; both outlive the scorer.
+    TestSplitScorer(std::string split, const kernels::ClipStore& clips, RecogniserLearner& learner)
+        : split_(std::move(split)), clips_(clips), learner_(learner) {}
 
     bool due(std::uint64_t /*epoch*/, bool /*last*/) const override { return true; }
-    void begin(Learner& learner, std::uint64_t epoch, std::uint64_t step) override;
+    void begin(std::uint64_t epoch, std::uint64_t step) override;
     std::optional<Scores> end() override { return std::exchange(scores_, std::nullopt); }
     bool in_background() const override { return false; }
     std::string fingerprint() const override { return split_; }
@@ -60,6 +61,7 @@ class TestSplitScorer : public Scorer {
   private:
     std::string split_;
     const kernels::ClipStore& clips_;
+    RecogniserLearner& learner_;
     std::optional<Scores> scores_;
     std::optional<eval::Confusion> confusion_;
 };

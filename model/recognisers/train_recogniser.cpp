@@ -86,7 +86,7 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
                                            ingest::topology_of(dataset, joints), dataset.folder().string()),
                               setup);
     std::optional<TestSplitScorer> scorer;
-    if (test_clips) scorer.emplace(settings.test_split, *test_clips);
+    if (test_clips) scorer.emplace(settings.test_split, *test_clips, learner);
     const TrainingTask task{config.model(), config, settings, dataset,
                             [&](const auto& path, const auto& weights, auto notes) {
                                 notes["configuration"] = config.yaml();

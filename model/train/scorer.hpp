@@ -24,8 +24,8 @@ class Scorer {
     /// Whether to score at the end of `epoch`, counted from 1; `last` is the training's.
     virtual bool due(std::uint64_t epoch, bool last) const = 0;
 
-    /// Begins to score the learner's weights. None may be on its way.
-    virtual void begin(Learner& learner, std::uint64_t epoch, std::uint64_t step) = 0;
+    /// Begins to score the weights of the learner that it was made for. None may be on its way.
+    virtual void begin(std::uint64_t epoch, std::uint64_t step) = 0;
 
     /// Waits for the scores on their way; none where there are none.
     virtual std::optional<Scores> end() = 0;

@@ -207,7 +207,7 @@ void Loop::end_epoch() {
 void Loop::begin_scores(EpochReport& report) {
     if (!scorer_ || !scorer_->due(report.epoch, report.epoch == settings_.epochs)) return;
     log_later_scores();
-    scorer_->begin(learner_, report.epoch, step_);
+    scorer_->begin(report.epoch, step_);
     if (!scorer_->in_background()) report.scores = end_scores();
 }
 
