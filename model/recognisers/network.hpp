@@ -25,7 +25,7 @@ class RecogniserNetwork {
     /// Takes the gradients and moves the weights at a learning rate.
     virtual void descend(double rate) = 0;
 
-    /// Whether every weight is a number.
+    /// Whether every weight is finite.
     virtual bool finite() = 0;
 
     /// Weights and what the optimiser keeps; taken back behind `steps` steps.

@@ -10,7 +10,7 @@ namespace actformer::model {
 void DivergenceWatch::see(const Measures& losses, const std::string& trouble, std::uint64_t steps) {
     at_once_ = at_once_ ||
                !std::ranges::all_of(losses, [](const Measure& loss) { return std::isfinite(loss.value); });
-    trouble_ = at_once_ ? "the losses are no numbers" : trouble;
+    trouble_ = at_once_ ? "losses are NaN or infinite" : trouble;
     steps_ = trouble_.empty() ? 0 : steps_ + steps;
 }
 

@@ -16,7 +16,7 @@ class DivergenceWatch {
     /// Nothing is wrong: a checkpoint of now is worth keeping.
     bool sound() const { return trouble_.empty(); }
 
-    /// Why the training is beyond hope; empty while there is some. Losses that are no numbers are at once; any other trouble
+    /// Why the training is beyond hope; empty while there is some. NaN or infinite losses are at once; any other trouble
     /// is after `patience` steps of it.
     std::string verdict() const;
 

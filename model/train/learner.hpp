@@ -38,10 +38,10 @@ class Learner {
     /// What `sums` over the last `steps` steps come to.
     virtual Measures losses(const std::vector<double>& sums, std::uint64_t steps) const = 0;
 
-    /// What is wrong with such losses, in words; empty where nothing is. Losses that are no numbers need not be looked for.
+    /// What is wrong with such losses, in words; empty where nothing is. NaN and infinite losses need not be looked for.
     virtual std::string trouble(const Measures& losses) const;
 
-    /// Whether every weight is a number.
+    /// Whether every weight is finite.
     virtual bool finite() = 0;
 
     /// All that the next step depends on, its number apart.

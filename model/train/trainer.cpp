@@ -48,6 +48,7 @@ class Loop {
     void save_best();
     void save();
     bool keep();
+    std::string what_is_kept() const;
     [[noreturn]] void stop();
     void finish();
     std::uint64_t epoch() const { return step_ / steps_an_epoch_; }
@@ -114,7 +115,8 @@ void Loop::compare_data(const Json& state) const {
         refuse(fmt::format("{} classes, the first '{}'", state.at("classes").size(),
                            state.at("classes").empty() ? "" : state.at("classes")[0].get<std::string>()));
     if (state.at("dataset") != task_.dataset.fingerprint())
-        throw Error("{}: holds a training on other data; choose another -o", folder);
+        throw Error("{}: holds a training on other data than {} has; choose another -o", folder,
+                    task_.dataset.folder().string());
     if (state.at("processes") != processes_.place().size)
         throw Error(
             "{}: holds a training by {} processes, and these are {}; start as many, or choose another -o",
@@ -172,12 +174,12 @@ void Loop::read_losses() {
     sums_step_ = step_;
     const auto verdict = watch_.verdict();
     if (verdict.empty()) return;
-    if (!leads()) throw Error("rank {}: stopped at step {}", processes_.place().rank, step_);
+    if (!leads())
+        throw Error("rank {}: stopped at step {}, as {}; rank 0 says which checkpoint is kept",
+                    processes_.place().rank, step_, verdict);
     log_later_scores();
-    throw Error(
-        "{}: stopped at step {}, as {}; the checkpoint of step {} is kept, and lower learning rates in a new "
-        "-o may help",
-        folder_->path().string(), step_, verdict, kept_step_);
+    throw Error("{}: stopped at step {}, as {}; {}", folder_->path().string(), step_, verdict,
+                what_is_kept());
 }
 
 void Loop::end_epoch() {
@@ -303,6 +305,12 @@ bool Loop::keep() {
     return write([this] { save(); });
 }
 
+/// How a message about a training beyond hope ends.
+std::string Loop::what_is_kept() const {
+    return fmt::format("the checkpoint of step {} is kept, and lower learning rates in a new -o may help",
+                       kept_step_);
+}
+
 /// A signal has asked for it: keeps the running step, if that can be.
 void Loop::stop() {
     if (sums_step_ != step_) read_losses();
@@ -316,8 +324,8 @@ void Loop::stop() {
 void Loop::finish() {
     log_later_scores();
     if (!learner_.finite())
-        throw Error("{}: the weights of step {} are no numbers; the checkpoint of step {} is kept",
-                    folder_->path().string(), step_, kept_step_);
+        throw Error("{}: weights of step {} are NaN or infinite; {}", folder_->path().string(), step_,
+                    what_is_kept());
     save();
 }
 

@@ -227,6 +227,11 @@ TEST_F(TrainGenerator, KeepsARunToItsSettingsItsDataAndOneTraining) {
     expect_refused(run_actformer("train generator -c " + at("toy.yaml") + " --data " + toy_pairs().string() +
                                  " -o " + at("all") + " train_split=all"),
                    {"1 persons a clip", "ntu-2p", "another -o"});
+    auto checkpoint = *model::newest_checkpoint(dir / "all", "actformer", [](const std::string&) {});
+    checkpoint.state["dataset"] = "of clips that have changed since";
+    model::save_checkpoint(dir / "all", checkpoint);
+    expect_refused(train("all", "epochs=1 train_split=all"),
+                   {"on other data than " + toy().string(), "another -o"});
 }
 
 TEST_F(TrainGenerator, GoesBackBehindDamagedCheckpointsAndRefusesForeignOnes) {
@@ -257,7 +262,7 @@ TEST_F(TrainGenerator, GoesBackBehindDamagedCheckpointsAndRefusesForeignOnes) {
     expect_refused(train("run", "epochs=2"), {"checkpoint-99999", "an earlier version", "another -o"});
 }
 
-TEST_F(TrainGenerator, StopsWhereTheLossesAreNoNumbers) {
+TEST_F(TrainGenerator, StopsWhereLossesAreNotFinite) {
     ASSERT_EQ(train("run", "epochs=1").exit, 0);
     const auto good = newest(dir / "run");
     auto checkpoint = *model::newest_checkpoint(dir / "run", "actformer", [](const std::string&) {});
@@ -267,7 +272,7 @@ TEST_F(TrainGenerator, StopsWhereTheLossesAreNoNumbers) {
     const auto bad = newest(dir / "run");
     ASSERT_NE(good, bad);
     expect_refused(train("run", "epochs=4"),
-                   {"stopped at step 4", "no numbers", "checkpoint of step 3 is kept"});
+                   {"stopped at step 4", "NaN or infinite", "checkpoint of step 3 is kept"});
     EXPECT_EQ(newest(dir / "run"), bad);
     EXPECT_TRUE(fs::exists(dir / "run" / good));
 }
