@@ -14,16 +14,16 @@ std::int64_t room_for(const at::Tensor& parameter) {
 
 }  // namespace
 
-FlatParameters::FlatParameters(std::vector<at::Tensor> parameters, std::int64_t remarks)
+FlatParameters::FlatParameters(std::vector<at::Tensor> parameters, std::int64_t appended)
     : parameters_(std::move(parameters)) {
     std::int64_t count = 0;
     for (const auto& parameter : parameters_) count += room_for(parameter);
     const auto options =
         at::TensorOptions(at::kFloat).device(parameters_.empty() ? at::kCPU : parameters_[0].device());
     values_ = at::zeros({count}, options);
-    message_ = at::zeros({count + remarks}, options);
-    gradients_ = message_.narrow(0, 0, count);
-    remarks_ = message_.narrow(0, count, remarks);
+    all_reduce_buffer_ = at::zeros({count + appended}, options);
+    gradients_ = all_reduce_buffer_.narrow(0, 0, count);
+    appended_values_ = all_reduce_buffer_.narrow(0, count, appended);
     const at::NoGradGuard no_gradients;
     std::int64_t first = 0;
     for (auto& parameter : parameters_) {

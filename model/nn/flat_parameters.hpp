@@ -11,13 +11,13 @@ namespace actformer::model {
 class FlatParameters {
   public:
     /// Moves float32 `parameters`, leaves that want gradients, into memory of its own; they stay the tensors they were.
-    /// `remarks` numbers more lie behind the gradients, so that what is averaged over processes takes one message.
-    explicit FlatParameters(std::vector<at::Tensor> parameters, std::int64_t remarks = 0);
+    /// `appended` more values lie behind the gradients, such as losses, so that one all-reduce averages both.
+    explicit FlatParameters(std::vector<at::Tensor> parameters, std::int64_t appended = 0);
 
     at::Tensor& values() { return values_; }  ///< (count); parameters begin at whole vectors, zeros between
-    at::Tensor& gradients() { return gradients_; }  ///< (count)
-    at::Tensor& remarks() { return remarks_; }      ///< (remarks)
-    at::Tensor& message() { return message_; }      ///< (count + remarks)
+    at::Tensor& gradients() { return gradients_; }                  ///< (count)
+    at::Tensor& appended_values() { return appended_values_; }      ///< (appended)
+    at::Tensor& all_reduce_buffer() { return all_reduce_buffer_; }  ///< (count + appended)
 
     /// Before a backward pass, which adds to the gradients.
     void zero_gradients();
@@ -30,7 +30,7 @@ class FlatParameters {
 
   private:
     std::vector<at::Tensor> parameters_;
-    at::Tensor values_, message_, gradients_, remarks_;
+    at::Tensor values_, all_reduce_buffer_, gradients_, appended_values_;
 };
 
 }  // namespace actformer::model

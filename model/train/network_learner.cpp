@@ -23,9 +23,9 @@ NetworkLearner::NetworkLearner(std::shared_ptr<torch::nn::Module> network,
 }
 
 void NetworkLearner::average(const at::Tensor& losses) {
-    parameters_.remarks().copy_(losses.detach());
-    setup_.processes.average(parameters_.message());
-    sums_.add_(parameters_.remarks());
+    parameters_.appended_values().copy_(losses.detach());
+    setup_.processes.average(parameters_.all_reduce_buffer());
+    sums_.add_(parameters_.appended_values());
 }
 
 void NetworkLearner::move(double rate_share) {

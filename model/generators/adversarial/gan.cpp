@@ -69,11 +69,11 @@ void Gan::step_discriminator(const at::Tensor& real, const at::Tensor& labels, s
     const auto of = scores.chunk(2);
     const auto loss = discriminator_loss(settings_.loss, of[0], of[1]);
     loss.backward();
-    discriminator_parameters_.remarks().copy_(
+    discriminator_parameters_.appended_values().copy_(
         at::stack({loss.detach(), of[0].detach().mean(), of[1].detach().mean()}));
-    processes_.average(discriminator_parameters_.message());
+    processes_.average(discriminator_parameters_.all_reduce_buffer());
     discriminator_adam_.step(rate_share_);
-    sums_.narrow(0, 0, 3).add_(discriminator_parameters_.remarks());
+    sums_.narrow(0, 0, 3).add_(discriminator_parameters_.appended_values());
 }
 
 void Gan::step_generator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw) {
@@ -90,10 +90,10 @@ void Gan::step_generator(const at::Tensor& real, const at::Tensor& labels, std::
     if (settings_.spread > 0) loss = loss + settings_.spread * spread_loss(real, made, labels);
     loss.backward();
     discriminator_parameters_.want_gradients(true);
-    generator_parameters_.remarks().copy_(loss.detach().view({1}));
-    processes_.average(generator_parameters_.message());
+    generator_parameters_.appended_values().copy_(loss.detach().view({1}));
+    processes_.average(generator_parameters_.all_reduce_buffer());
     generator_adam_.step(rate_share_);
-    sums_.narrow(0, 3, 1).add_(generator_parameters_.remarks());
+    sums_.narrow(0, 3, 1).add_(generator_parameters_.appended_values());
     if (ema_parameters_)
         ema_parameters_->follow(generator_parameters_, settings_.average, generator_adam_.steps);
 }

@@ -33,7 +33,7 @@ TEST(FlatParameters, StayTheTensorsTheyWere) {
         EXPECT_TRUE(p[i].grad().equal(plain[i].grad()));
         EXPECT_EQ(p[i].grad().storage().data(), flat.gradients().storage().data());
     }
-    EXPECT_EQ(flat.message().numel(), flat.gradients().numel() + 2);
+    EXPECT_EQ(flat.all_reduce_buffer().numel(), flat.gradients().numel() + 2);
     backward(p);  // adds
     EXPECT_TRUE(p[1].grad().equal(2 * plain[1].grad()));
     flat.want_gradients(false);
