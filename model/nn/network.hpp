@@ -10,14 +10,14 @@
 
 namespace actformer::model {
 
-/// How a weight starts.
-enum class Begin {
-    uniform,     ///< within one over the root of the inputs to an output, `reach`
-    normal,      ///< of deviation `reach`
+/// How a weight is initialised.
+enum class Init {
+    uniform,     ///< in [-scale, scale]
+    normal,      ///< of deviation `scale`
     orthogonal,  ///< rows or columns
     zeros,
     ones,
-    tiling,  ///< (frames, persons, width): a normal table over frames beside one over persons, deviation `reach`
+    tiling,  ///< (frames, persons, width): a normal table over frames beside one over persons, deviation `scale`
     sinusoids,        ///< the same of sines and cosines
     frame_sinusoids,  ///< its table over frames alone, (frames, width)
     person_sinusoids  ///< its table over persons alone, (persons, width)
@@ -26,8 +26,8 @@ enum class Begin {
 struct NetworkWeight {
     std::string name;  ///< the layer's, a dot, "weight" or "bias"; or the name of a table
     std::vector<std::int64_t> shape;
-    Begin begin = Begin::uniform;
-    double reach = 0;
+    Init init = Init::uniform;
+    double scale = 0;       ///< as its Init has it
     bool spectral = false;  ///< divided by its largest singular value as a matrix of `rows` rows
     std::int64_t rows = 0;
     bool trained = true;

@@ -52,34 +52,34 @@ at::Tensor sinusoid_table(const std::vector<std::int64_t>& shape) {
 
 at::Tensor started(const NetworkWeight& weight, at::Generator& random) {
     const auto normal = [&](at::IntArrayRef shape) {
-        return at::empty(shape, at::kDouble).normal_(0, weight.reach, random);
+        return at::empty(shape, at::kDouble).normal_(0, weight.scale, random);
     };
-    switch (weight.begin) {
-        case Begin::uniform:
-            return at::empty(weight.shape, at::kDouble).uniform_(-weight.reach, weight.reach, random);
-        case Begin::normal:
+    switch (weight.init) {
+        case Init::uniform:
+            return at::empty(weight.shape, at::kDouble).uniform_(-weight.scale, weight.scale, random);
+        case Init::normal:
             return normal(weight.shape);
-        case Begin::orthogonal: {
+        case Init::orthogonal: {
             const auto gauss = at::empty(weight.shape, at::kDouble).normal_(0, 1, random);
             const bool wide = weight.shape[0] < weight.shape[1];
             const auto [q, r] = at::linalg_qr(wide ? gauss.t() : gauss);
             const auto signed_q = q * r.diagonal().sign();
             return (wide ? signed_q.t() : signed_q).contiguous();
         }
-        case Begin::tiling: {
+        case Init::tiling: {
             const auto half = weight.shape[2] / 2;
             const auto frames = normal({weight.shape[0], half});
             return tiled(frames, normal({weight.shape[1], weight.shape[2] - half}));
         }
-        case Begin::sinusoids:
+        case Init::sinusoids:
             return sinusoid_table(weight.shape);
-        case Begin::frame_sinusoids:
+        case Init::frame_sinusoids:
             return frame_sinusoids(weight.shape[0], weight.shape[1]);
-        case Begin::person_sinusoids:
+        case Init::person_sinusoids:
             return sinusoids(weight.shape[0], weight.shape[1]);
-        case Begin::ones:
+        case Init::ones:
             return at::ones(weight.shape, at::kDouble);
-        case Begin::zeros:
+        case Init::zeros:
             break;
     }
     return at::zeros(weight.shape, at::kDouble);

@@ -12,7 +12,7 @@ std::vector<NetworkWeight> gru_weights(const GruSettings& settings) {
     for (const auto& tensor : eval::gru_tensors(settings.network()))
         all.push_back({tensor.name,
                        {tensor.shape.begin(), tensor.shape.end()},
-                       Begin::uniform,
+                       Init::uniform,
                        1 / std::sqrt(static_cast<double>(tensor.fan_in))});
     return all;
 }

@@ -31,7 +31,7 @@ Start start_of(TensorRole role) {
 /// Weights and biases of convolutions start uniform within one over the root of the inputs to an output.
 WeightInfo info_of(const eval::StgcnTensor& tensor) {
     WeightInfo info{tensor.name, {tensor.shape.begin(), tensor.shape.end()}, start_of(tensor.role)};
-    if (info.start == Start::uniform) info.reach = 1 / std::sqrt(static_cast<double>(tensor.fan_in));
+    if (info.start == Start::uniform) info.bound = 1 / std::sqrt(static_cast<double>(tensor.fan_in));
     info.trained = tensor.role != TensorRole::running_mean && tensor.role != TensorRole::running_variance;
     return info;
 }

@@ -33,7 +33,7 @@ struct WeightInfo {
     std::string name;
     std::vector<std::int64_t> shape;
     Start start = Start::uniform;
-    double reach = 0;     ///< uniform in [-reach, reach]
+    double bound = 0;     ///< uniform in [-bound, bound]
     bool trained = true;  ///< running means and variances are not
 
     std::int64_t count() const;

@@ -18,7 +18,7 @@ constexpr double norm_momentum = 0.1, norm_epsilon = 1e-5;
 at::Tensor started(const WeightInfo& info, at::Generator& random) {
     auto weight = at::zeros(info.shape, at::kFloat);
     if (info.start == Start::ones) weight.fill_(1);
-    if (info.start == Start::uniform) weight.uniform_(-info.reach, info.reach, random);
+    if (info.start == Start::uniform) weight.uniform_(-info.bound, info.bound, random);
     return weight;
 }
 

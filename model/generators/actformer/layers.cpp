@@ -19,13 +19,13 @@ class List {
     /// A weight whose last `inputs` numbers go into one output, and its bias of `out` where it has one.
     void spectral(const std::string& name, std::vector<std::int64_t> shape, std::int64_t rows,
                   std::int64_t inputs, bool bias) {
-        const double reach = 1 / std::sqrt(static_cast<double>(inputs));
-        list_.push_back({name + ".weight", std::move(shape), Begin::uniform, reach, true, rows});
-        if (bias) list_.push_back({name + ".bias", {rows}, Begin::uniform, reach});
+        const double bound = 1 / std::sqrt(static_cast<double>(inputs));
+        list_.push_back({name + ".weight", std::move(shape), Init::uniform, bound, true, rows});
+        if (bias) list_.push_back({name + ".bias", {rows}, Init::uniform, bound});
     }
     void norm(const std::string& name, std::int64_t width, bool spectral) {
-        list_.push_back({name + ".weight", {width}, Begin::ones, 0, spectral, width});
-        list_.push_back({name + ".bias", {width}, Begin::zeros});
+        list_.push_back({name + ".weight", {width}, Init::ones, 0, spectral, width});
+        list_.push_back({name + ".bias", {width}, Init::zeros});
     }
     void add(NetworkWeight weight) { list_.push_back(std::move(weight)); }
     std::vector<NetworkWeight> take() { return std::move(list_); }
@@ -40,18 +40,18 @@ void add_positions(List& list, const GeneratorSettings& s) {
     // Numbers that all start on their own are what `independent` is about.
     const bool smooth =
         !trained || (s.positions_start == PositionsStart::sinusoids && s.positions != Positions::independent);
-    const auto table = [&](const char* name, std::vector<std::int64_t> shape, Begin begin) {
-        list.add({name, std::move(shape), begin, position_deviation, false, 0, trained});
+    const auto table = [&](const char* name, std::vector<std::int64_t> shape, Init init) {
+        list.add({name, std::move(shape), init, position_deviation, false, 0, trained});
     };
     if (s.positions == Positions::concat && persons > 1) {
-        table("frame_positions", {tokens, width / 2}, smooth ? Begin::frame_sinusoids : Begin::normal);
-        table("person_positions", {persons, width / 2}, smooth ? Begin::person_sinusoids : Begin::normal);
+        table("frame_positions", {tokens, width / 2}, smooth ? Init::frame_sinusoids : Init::normal);
+        table("person_positions", {persons, width / 2}, smooth ? Init::person_sinusoids : Init::normal);
         return;
     }
-    const auto begin = smooth                                           ? Begin::sinusoids
-                       : s.positions == Positions::tiled && persons > 1 ? Begin::tiling
-                                                                        : Begin::normal;
-    table("positions", {tokens, persons, width}, begin);
+    const auto init = smooth                                           ? Init::sinusoids
+                      : s.positions == Positions::tiled && persons > 1 ? Init::tiling
+                                                                       : Init::normal;
+    table("positions", {tokens, persons, width}, init);
 }
 
 void add_block(List& list, const std::string& prefix, const GeneratorSettings& s) {
@@ -112,7 +112,7 @@ std::vector<NetworkWeight> generator_weights(const GeneratorSettings& s) {
     List list;
     const auto streams = s.interaction == Interaction::concat ? s.prior.streams : 1;
     list.linear("input", s.width, std::int64_t{streams} * s.prior.channels);
-    list.add({"classes.weight", {s.classes, s.width}, Begin::orthogonal});
+    list.add({"classes.weight", {s.classes, s.width}, Init::orthogonal});
     add_positions(list, s);
     const auto blocks = interacting_blocks(s).size();
     for (std::size_t i = 0; i < blocks; ++i) add_block(list, fmt::format("blocks.{}.", i), s);
@@ -150,7 +150,7 @@ std::vector<NetworkWeight> discriminator_weights(const DiscriminatorSettings& s)
         list.linear("persons.proj", features, features);
     }
     list.linear("score", 1, features);
-    list.add({"classes.weight", {s.classes, features}, Begin::orthogonal, 0, true, s.classes});
+    list.add({"classes.weight", {s.classes, features}, Init::orthogonal, 0, true, s.classes});
     return list.take();
 }
 

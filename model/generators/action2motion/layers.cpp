@@ -10,15 +10,15 @@ namespace {
 class List {
   public:
     void linear(const std::string& name, std::int64_t out, std::int64_t in) {
-        const double reach = 1 / std::sqrt(static_cast<double>(in));
-        weights_.push_back({name + ".weight", {out, in}, Begin::uniform, reach});
-        weights_.push_back({name + ".bias", {out}, Begin::uniform, reach});
+        const double bound = 1 / std::sqrt(static_cast<double>(in));
+        weights_.push_back({name + ".weight", {out, in}, Init::uniform, bound});
+        weights_.push_back({name + ".bias", {out}, Init::uniform, bound});
     }
     void cell(const std::string& name, std::int64_t hidden) {
-        const double reach = 1 / std::sqrt(static_cast<double>(hidden));
+        const double bound = 1 / std::sqrt(static_cast<double>(hidden));
         for (const char* side : {"ih", "hh"}) {
-            weights_.push_back({name + ".weight_" + side, {3 * hidden, hidden}, Begin::uniform, reach});
-            weights_.push_back({name + ".bias_" + side, {3 * hidden}, Begin::uniform, reach});
+            weights_.push_back({name + ".weight_" + side, {3 * hidden, hidden}, Init::uniform, bound});
+            weights_.push_back({name + ".bias_" + side, {3 * hidden}, Init::uniform, bound});
         }
     }
     std::vector<NetworkWeight> take() { return std::move(weights_); }

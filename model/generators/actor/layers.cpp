@@ -10,23 +10,23 @@ namespace {
 /// Collects weights layer by layer.
 class List {
   public:
-    void linear(const std::string& name, std::int64_t out, std::int64_t in, Begin bias = Begin::uniform) {
-        const double reach = 1 / std::sqrt(static_cast<double>(in));
-        add(name + ".weight", {out, in}, Begin::uniform, reach);
-        add(name + ".bias", {out}, bias, reach);
+    void linear(const std::string& name, std::int64_t out, std::int64_t in, Init bias = Init::uniform) {
+        const double bound = 1 / std::sqrt(static_cast<double>(in));
+        add(name + ".weight", {out, in}, Init::uniform, bound);
+        add(name + ".bias", {out}, bias, bound);
     }
     void norm(const std::string& name, std::int64_t width) {
-        add(name + ".weight", {width}, Begin::ones);
-        add(name + ".bias", {width}, Begin::zeros);
+        add(name + ".weight", {width}, Init::ones);
+        add(name + ".bias", {width}, Init::zeros);
     }
     void attention(const std::string& name, std::int64_t width) {
-        add(name + ".in_proj_weight", {3 * width, width}, Begin::uniform,
+        add(name + ".in_proj_weight", {3 * width, width}, Init::uniform,
             std::sqrt(6 / static_cast<double>(4 * width)));
-        add(name + ".in_proj_bias", {3 * width}, Begin::zeros);
-        linear(name + ".out_proj", width, width, Begin::zeros);
+        add(name + ".in_proj_bias", {3 * width}, Init::zeros);
+        linear(name + ".out_proj", width, width, Init::zeros);
     }
     void table(const std::string& name, std::int64_t rows, std::int64_t width) {
-        add(name, {rows, width}, Begin::normal, 1);
+        add(name, {rows, width}, Init::normal, 1);
     }
 
     /// Names from now on stand behind `prefix`, and begin as those behind `like` where it is not empty.
@@ -37,8 +37,8 @@ class List {
     std::vector<NetworkWeight> take() { return std::move(list_); }
 
   private:
-    void add(const std::string& name, std::vector<std::int64_t> shape, Begin begin, double reach = 0) {
-        NetworkWeight weight{prefix_ + name, std::move(shape), begin, reach};
+    void add(const std::string& name, std::vector<std::int64_t> shape, Init init, double scale = 0) {
+        NetworkWeight weight{prefix_ + name, std::move(shape), init, scale};
         if (!like_.empty()) weight.same_as = like_ + name;
         list_.push_back(std::move(weight));
     }

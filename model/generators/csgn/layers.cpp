@@ -37,8 +37,8 @@ std::vector<std::int64_t> weight_shape(const GraphConvolution& layer) {
     return {layer.out, layer.sums.hops, layer.taps, layer.in};
 }
 
-/// `reach` of what starts as PyTorch's layers do.
-double reach_of(std::int64_t inputs) {
+/// Of the uniform numbers that PyTorch's layers start with.
+double bound_of(std::int64_t inputs) {
     return 1 / std::sqrt(static_cast<double>(inputs));
 }
 
@@ -96,15 +96,15 @@ std::vector<NetworkWeight> csgn_generator_weights(const CsgnSettings& s) {
         const auto& level = layers.levels[i];
         const auto norm = fmt::format("norm{}.", i);
         const std::int64_t classes = s.classes, width = level.out / 2;
-        list.push_back({level.name + ".weight", weight_shape(level), Begin::normal, start_deviation});
-        list.push_back({norm + "gain", {classes, width}, Begin::ones});
-        list.push_back({norm + "shift", {classes, width}, Begin::zeros});
-        list.push_back({norm + "mean", {width}, Begin::zeros, 0, false, 0, false});
-        list.push_back({norm + "variance", {width}, Begin::ones, 0, false, 0, false});
+        list.push_back({level.name + ".weight", weight_shape(level), Init::normal, start_deviation});
+        list.push_back({norm + "gain", {classes, width}, Init::ones});
+        list.push_back({norm + "shift", {classes, width}, Init::zeros});
+        list.push_back({norm + "mean", {width}, Init::zeros, 0, false, 0, false});
+        list.push_back({norm + "variance", {width}, Init::ones, 0, false, 0, false});
     }
     const auto& last = layers.last;
-    list.push_back({last.name + ".weight", weight_shape(last), Begin::normal, start_deviation});
-    list.push_back({last.name + ".bias", {last.sums.hops, last.out}, Begin::zeros});
+    list.push_back({last.name + ".weight", weight_shape(last), Init::normal, start_deviation});
+    list.push_back({last.name + ".bias", {last.sums.hops, last.out}, Init::zeros});
     return list;
 }
 
@@ -112,24 +112,24 @@ std::vector<NetworkWeight> csgn_discriminator_weights(const CsgnSettings& s) {
     std::vector<NetworkWeight> list;
     const auto layers = discriminator_layers(s);
     for (const auto& level : layers.levels) {
-        const double reach = reach_of(std::int64_t{level.in} * level.taps);
-        list.push_back({level.name + ".weight", weight_shape(level), Begin::uniform, reach, true, level.out});
+        const double bound = bound_of(std::int64_t{level.in} * level.taps);
+        list.push_back({level.name + ".weight", weight_shape(level), Init::uniform, bound, true, level.out});
         if (&level == &layers.levels.front())
-            list.push_back({level.name + ".bias", {level.sums.hops, level.out}, Begin::uniform, reach});
+            list.push_back({level.name + ".bias", {level.sums.hops, level.out}, Init::uniform, bound});
     }
     const auto& last = layers.last;
     const std::int64_t features = last.out;
-    const double reach = reach_of(std::int64_t{last.in} * last.taps * last.sums.inputs);
+    const double bound = bound_of(std::int64_t{last.in} * last.taps * last.sums.inputs);
     list.push_back({last.name + ".weight",
                     {features, last.sums.inputs, last.taps, last.in},
-                    Begin::uniform,
-                    reach,
+                    Init::uniform,
+                    bound,
                     true,
                     features});
-    list.push_back({last.name + ".bias", {features}, Begin::uniform, reach});
-    list.push_back({"score.weight", {1, features}, Begin::uniform, reach_of(features), true, 1});
-    list.push_back({"score.bias", {1}, Begin::uniform, reach_of(features)});
-    list.push_back({"classes.weight", {s.classes, features}, Begin::normal, 1, true, s.classes});
+    list.push_back({last.name + ".bias", {features}, Init::uniform, bound});
+    list.push_back({"score.weight", {1, features}, Init::uniform, bound_of(features), true, 1});
+    list.push_back({"score.bias", {1}, Init::uniform, bound_of(features)});
+    list.push_back({"classes.weight", {s.classes, features}, Init::normal, 1, true, s.classes});
     return list;
 }
 
