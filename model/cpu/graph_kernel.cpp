@@ -29,7 +29,7 @@ void gather(std::span<const Edge> edges, const T* strength, const T* x, std::int
         }
 }
 
-/// The way back: gathered's gradient to x's and the strengths'.
+/// The backward pass: gathered's gradient to x's and the strengths'.
 template <typename T>
 void scatter(std::span<const Edge> edges, const T* strength, const T* x, std::int64_t in, std::int64_t frames,
              std::int64_t joints, std::int64_t pitch, const T* gathered, T* grad_x, T* grad_strength) {

@@ -40,7 +40,7 @@ struct GruInput {
 template <typename T>
 struct GruTrace {
     T* states;  ///< (frames, samples, hidden)
-    T* gates;  ///< (frames, samples, 4*hidden): U_n h + c_n, r, z, n; null where nothing is kept for the way back
+    T* gates;  ///< (frames, samples, 4*hidden): U_n h + c_n, r, z, n; null where nothing is kept for the backward pass
 };
 
 /// Makes the first cell's further input out of the last cell's state a frame before. Called by several threads at once, for samples

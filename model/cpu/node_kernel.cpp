@@ -133,7 +133,7 @@ std::vector<PackedMatrix<T>>& pack_groups(const NodeShape& shape, const NodeSums
     return all;
 }
 
-/// A node's groups one under the other, (groups * out, window), for the way back to x.
+/// A node's groups one under the other, (groups * out, window), for the backward pass to x.
 template <typename T>
 std::vector<PackedMatrix<T>>& pack_nodes(const NodeShape& shape, const NodeSums& sums, const T* weight,
                                          int threads) {
@@ -162,7 +162,7 @@ std::vector<PackedMatrix<T>>& pack_nodes(const NodeShape& shape, const NodeSums&
     return all;
 }
 
-/// One thread's way back, chunk by chunk.
+/// One thread's backward pass, chunk by chunk.
 template <typename T>
 class Backward {
   public:

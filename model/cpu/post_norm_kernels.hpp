@@ -25,7 +25,7 @@ struct AttentionNormWeights {
     Dropout weights_dropout;
 };
 
-/// Kept for the way back: as AttentionKept, and the sums before the norm, (rows, width). Null where nothing is kept.
+/// Kept for the backward pass: as AttentionKept, and the sums before the norm, (rows, width). Null where nothing is kept.
 template <typename T>
 struct AttentionNormKept {
     T *qkv, *seen, *sum;

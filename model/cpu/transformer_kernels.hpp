@@ -40,7 +40,7 @@ struct AttentionShape {
     std::int64_t head() const { return tokens.width / heads; }
     std::int64_t sequences() const { return over_persons ? tokens.tokens : tokens.persons; }
     std::int64_t length() const { return over_persons ? tokens.persons : tokens.tokens; }
-    /// Numbers a row has in what is kept for the way back.
+    /// Numbers a row has in what is kept for the backward pass.
     std::int64_t qkv_pitch() const;
     std::int64_t seen_pitch() const;
 };
@@ -51,7 +51,7 @@ struct AttentionWeights {
     LinearWeight<T> qkv, proj;
 };
 
-/// Kept for the way back: queries, keys and values, and what each token saw. Null where nothing is kept.
+/// Kept for the backward pass: queries, keys and values, and what each token saw. Null where nothing is kept.
 template <typename T>
 struct AttentionKept {
     T *qkv, *seen;  ///< (rows, qkv_pitch), (rows, seen_pitch)

@@ -33,7 +33,7 @@ struct MotionSpec {
     ingest::Representation representation;
     ingest::Topology topology;
     std::uint32_t persons = 1, classes = 0;
-    std::string where;                               ///< dataset or file that it comes from, for complaints
+    std::string where;  ///< dataset or file that it comes from, for error messages
     std::vector<float> bone_length = {}, rest = {};  ///< as ingest::BodyModel has them
 
     std::uint32_t nodes() const { return representation.nodes(topology); }  ///< K

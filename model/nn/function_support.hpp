@@ -39,8 +39,8 @@ struct Gradients {
     }
 };
 
-/// Whether anything is kept for the way back.
-inline bool keeps() {
+/// Whether gradients are recorded; else nothing is kept for the backward pass.
+inline bool grad_enabled() {
     return at::GradMode::is_enabled();
 }
 

@@ -259,7 +259,7 @@ const char* convolution_name(const cpu::NodeShape& shape) {
     return "graph convolution, coarsening";
 }
 
-/// What a graph convolution keeps for the way back beside tensors.
+/// What a graph convolution keeps for the backward pass beside tensors.
 struct NodeLayer : torch::CustomClassHolder {
     cpu::NodeShape shape;
     std::shared_ptr<const cpu::NodeSums> sums;
@@ -331,7 +331,7 @@ void fused_attention_in_place(const at::Tensor& x, const LinearTensors& norm, co
 
 at::Tensor fused_attention(const at::Tensor& x, const LinearTensors& norm, const LinearTensors& qkv,
                            const LinearTensors& proj, std::int64_t heads, bool over_persons) {
-    if (keeps())
+    if (grad_enabled())
         return Attention::apply(x, norm.weight, norm.bias, qkv.weight, qkv.bias, proj.weight, proj.bias,
                                 heads, over_persons);
     auto y = x.clone();
@@ -351,7 +351,8 @@ void fused_mlp_in_place(const at::Tensor& x, const LinearTensors& norm, const Li
 
 at::Tensor fused_mlp(const at::Tensor& x, const LinearTensors& norm, const LinearTensors& up,
                      const LinearTensors& down) {
-    if (keeps()) return Mlp::apply(x, norm.weight, norm.bias, up.weight, up.bias, down.weight, down.bias);
+    if (grad_enabled())
+        return Mlp::apply(x, norm.weight, norm.bias, up.weight, up.bias, down.weight, down.bias);
     auto y = x.clone();
     fused_mlp_in_place(y, norm, up, down);
     return y;
@@ -359,7 +360,8 @@ at::Tensor fused_mlp(const at::Tensor& x, const LinearTensors& norm, const Linea
 
 at::Tensor fused_poses(const at::Tensor& x, const LinearTensors& norm, const LinearTensors& head,
                        ingest::Representation representation) {
-    if (keeps()) return Poses::apply(x, norm.weight, norm.bias, head.weight, head.bias, representation);
+    if (grad_enabled())
+        return Poses::apply(x, norm.weight, norm.bias, head.weight, head.bias, representation);
     const auto shape = pose_shape(x, head.weight, representation);
     auto motion = motion_for(shape, x);
     timed("tokens to motions", false, x, [&](auto number) {

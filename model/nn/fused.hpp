@@ -1,6 +1,6 @@
 // ActFormer's layers on processors as differentiable functions of tensors. Includes torch headers.
 //
-// Tensors are contiguous, float or double, on the CPU. Without gradients (at::NoGradGuard) nothing is kept for the way back.
+// Tensors are contiguous, float or double, on the CPU. Without gradients (at::NoGradGuard) nothing is kept for the backward pass.
 #pragma once
 
 #include <ATen/ATen.h>

@@ -28,7 +28,7 @@ at::Tensor fused_gru(const GruInputs& inputs, const std::vector<GruTensors>& cel
 /// A pose's rotations in place of its positions: see cpu::BentBody. bones (T, N, joints).
 struct BentTensors {
     LinearTensors weight;
-    const cpu::Chains* chains = nullptr;  ///< none: no body is bent. They must outlive the way back
+    const cpu::Chains* chains = nullptr;  ///< none: no body is bent. They must outlive the backward pass
     at::Tensor bones;
     bool feeds_joints = false;
 };

@@ -21,7 +21,7 @@ void check_fits(const cpu::RestSkeleton& skeleton, const at::Tensor& motion) {
                 "rotations of another skeleton: ", motion.sizes());
 }
 
-/// What the way back needs beside tensors.
+/// What the backward pass needs beside tensors.
 struct HeldSkeleton : torch::CustomClassHolder {
     std::shared_ptr<const cpu::RestSkeleton> skeleton;
 

@@ -207,7 +207,7 @@ at::Tensor fused_attention_norm(const at::Tensor& x, const LinearTensors& qkv, c
                                 const PostNormTensors& post, std::int64_t heads,
                                 const BranchDropout& dropout) {
     const auto sublayer = options_of(heads, post, dropout);
-    if (keeps())
+    if (grad_enabled())
         return AttentionNorm::apply(x, qkv.weight, qkv.bias, proj.weight, proj.bias, post.norm.weight,
                                     post.norm.bias, sublayer);
     const at::Tensor weights[] = {qkv.weight, qkv.bias,         proj.weight,
@@ -218,7 +218,7 @@ at::Tensor fused_attention_norm(const at::Tensor& x, const LinearTensors& qkv, c
 at::Tensor fused_mlp_norm(const at::Tensor& x, const LinearTensors& up, const LinearTensors& down,
                           const PostNormTensors& post, const BranchDropout& dropout) {
     const auto sublayer = options_of(0, post, dropout);
-    if (keeps())
+    if (grad_enabled())
         return MlpNorm::apply(x, up.weight, up.bias, down.weight, down.bias, post.norm.weight, post.norm.bias,
                               sublayer);
     const at::Tensor weights[] = {up.weight, up.bias,          down.weight,
@@ -229,7 +229,7 @@ at::Tensor fused_mlp_norm(const at::Tensor& x, const LinearTensors& up, const Li
 at::Tensor fused_sum_norm(const at::Tensor& x, const at::Tensor& parts, const at::Tensor& bias,
                           const PostNormTensors& post, const BranchDropout& dropout) {
     const auto sublayer = options_of(0, post, dropout);
-    if (keeps()) return SumNorm::apply(x, parts, bias, post.norm.weight, post.norm.bias, sublayer);
+    if (grad_enabled()) return SumNorm::apply(x, parts, bias, post.norm.weight, post.norm.bias, sublayer);
     const at::Tensor weights[] = {parts, bias, post.norm.weight, post.norm.bias};
     return SumNorm::run_forward(x, weights, *sublayer, {});
 }

@@ -43,7 +43,7 @@ class GruNetwork : public RecogniserNetwork {
         const at::NoGradGuard no_gradients;
         return forward(x);
     }
-    void descend(double rate) override {
+    void optimiser_step(double rate) override {
         if (decay_ > 0) parameters_.gradients().add_(parameters_.values(), decay_);
         adam_.step(rate);
     }

@@ -42,7 +42,7 @@ void RecogniserLearner::step(std::uint64_t step, double rate_share) {
     const auto logits = network_->train_logits(noisy(augmentation_(values_of(windows), seed), seed), seed);
     const auto loss = at::cross_entropy_loss(logits, labels);
     loss.backward();
-    network_->descend(rate_);
+    network_->optimiser_step(rate_);
     sums_[0] += loss.detach();
     sums_[1] += logits.detach().argmax(1).eq(labels).sum();
 }

@@ -22,8 +22,8 @@ class RecogniserNetwork {
     /// The same without gradients or anything random.
     virtual at::Tensor logits(const at::Tensor& x) = 0;
 
-    /// Takes the gradients and moves the weights at a learning rate.
-    virtual void descend(double rate) = 0;
+    /// A step of the optimiser along the gradients, at a learning rate.
+    virtual void optimiser_step(double rate) = 0;
 
     /// Whether every weight is finite.
     virtual bool finite() = 0;

@@ -20,7 +20,7 @@ class StgcnNetwork : public RecogniserNetwork {
         return net_.train_forward(x, seed).logits;
     }
     at::Tensor logits(const at::Tensor& x) override { return net_.eval_forward(x).logits; }
-    void descend(double rate) override { sgd_.step(rate); }
+    void optimiser_step(double rate) override { sgd_.step(rate); }
 
     bool finite() override {
         for (const auto& info : net_.infos())

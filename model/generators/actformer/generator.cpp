@@ -211,7 +211,7 @@ at::Tensor Generator::finished(const at::Tensor& poses) const {
 }
 
 /// The EMA's singular vectors are close to those of the last weights: a few power iterations from there find them.
-void Generator::find_buffers(const Prior& /*prior*/, std::int64_t /*frames*/) {
+void Generator::recompute_buffers(const Prior& /*prior*/, std::int64_t /*frames*/) {
     for (const auto& weight : generator_weights(settings_))
         for (int i = 0; weight.spectral && i < 10; ++i) weights_.normalised(weight.name, true);
 }

@@ -22,7 +22,7 @@ class Generator : public GanGenerator {
                         std::int64_t /*frames*/) override {
         return forward(latent, labels);
     }
-    void find_buffers(const Prior& prior, std::int64_t frames) override;
+    void recompute_buffers(const Prior& prior, std::int64_t frames) override;
 
     const GeneratorSettings& settings() const { return settings_; }
     const WeightStore& weights() const { return weights_; }

@@ -103,7 +103,7 @@ GanGenerator& Gan::ema() {
     const at::NoGradGuard no_gradients;
     const auto from = generator().named_buffers();
     for (auto& item : networks_.ema->named_buffers()) item.value().copy_(from[item.key()]);
-    networks_.ema->find_buffers(prior_, settings_.frames);
+    networks_.ema->recompute_buffers(prior_, settings_.frames);
     return *networks_.ema;
 }
 

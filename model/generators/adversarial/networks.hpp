@@ -23,9 +23,10 @@ class GanGenerator : public torch::nn::Module {
     /// person by person.
     virtual at::Tensor generate(const at::Tensor& latent, const at::Tensor& labels, std::int64_t frames) = 0;
 
-    /// Its weights became those of an EMA, its buffers are still the trained network's: finds the buffers that go with the
-    /// weights, with latents for motions of `frames` frames where it needs some.
-    virtual void find_buffers(const Prior& prior, std::int64_t frames) = 0;
+    /// Estimates anew the buffers that depend on the weights, once these have become an EMA's and the buffers are still the trained
+    /// network's: singular vectors of spectral norms by power iteration, statistics of batch normalisation from motions of `frames`
+    /// frames that it generates from `prior`.
+    virtual void recompute_buffers(const Prior& prior, std::int64_t frames) = 0;
 };
 
 class GanDiscriminator : public torch::nn::Module {

@@ -84,7 +84,7 @@ at::Tensor CsgnGenerator::generate(const at::Tensor& latent, const at::Tensor& l
     return motions(x, frames, fused);
 }
 
-void CsgnGenerator::find_buffers(const Prior& prior, std::int64_t frames) {
+void CsgnGenerator::recompute_buffers(const Prior& prior, std::int64_t frames) {
     const at::NoGradGuard no_gradients;
     const bool training = is_training();
     const double momentum = momentum_;

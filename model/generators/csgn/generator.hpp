@@ -24,7 +24,7 @@ class CsgnGenerator : public GanGenerator {
     at::Tensor generate(const at::Tensor& latent, const at::Tensor& labels, std::int64_t frames) override;
 
     /// Running statistics of the EMA's own weights: means over batches of motions of random classes.
-    void find_buffers(const Prior& prior, std::int64_t frames) override;
+    void recompute_buffers(const Prior& prior, std::int64_t frames) override;
 
     const CsgnSettings& settings() const { return settings_; }
 

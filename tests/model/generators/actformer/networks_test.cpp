@@ -313,7 +313,7 @@ TEST_F(ActformerNetworks, ThePapersSizeAgreesInFloat) {
     expect_near(kept, fused.forward(latent, labels), 0);
     at::GradMode::set_enabled(true);
     expect_near(kept, fused.forward(latent, labels),
-                1e-6);  // in place, and with what is kept for the way back
+                1e-6);  // in place, and with what is kept for the backward pass
 }
 
 TEST_F(ActformerNetworks, GeneratedLimbsAndRotationsAreUnitVectors) {

@@ -142,7 +142,7 @@ TEST_F(ActorNetwork, BothPathsAgreeForwardAndBackWithAndWithoutDropout) {
             }
             const at::NoGradGuard no_gradients;
             expect_near(through(fused, motion, noise, dropout), ours,
-                        1e-12);  // nothing kept for the way back
+                        1e-12);  // nothing kept for the backward pass
         }
 }
 

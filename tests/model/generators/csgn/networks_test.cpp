@@ -176,7 +176,7 @@ TEST_F(CsgnNetworks, RunningStatisticsOfAnEmaAreItsOwn) {
     CsgnGenerator network(s, 1);
     stir(network);
     const Prior prior(s.prior(), 3);
-    network.find_buffers(prior, 20);
+    network.recompute_buffers(prior, 20);
     // Statistics over many batches more, moved slowly: those of the same weights.
     const at::NoGradGuard no_gradients;
     const auto found = network.named_buffers()["norm0.variance"].clone();
@@ -186,7 +186,7 @@ TEST_F(CsgnNetworks, RunningStatisticsOfAnEmaAreItsOwn) {
     EXPECT_GT((moved - 1).abs().mean().item<double>(), 0.1) << "they start at 1";
     CsgnGenerator other(s, 1);
     copy_all(network, other);
-    other.find_buffers(prior, 20);
+    other.recompute_buffers(prior, 20);
     EXPECT_TRUE(found.equal(other.named_buffers()["norm0.variance"])) << "whatever they were before";
 }
 
