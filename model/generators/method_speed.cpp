@@ -46,7 +46,7 @@ MotionSpec timed_spec(const MethodSpeedRequest& request) {
 at::Device device_of(const Config& config) {
     const auto settings = generator_trainer_settings(config);
     const auto device = torch_device(settings.device);
-    use_kernels(settings, device);
+    set_tf32_and_determinism(settings, device);
     return device;
 }
 

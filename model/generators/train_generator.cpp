@@ -29,7 +29,7 @@ TrainingResult train_here(const Config& config, const std::filesystem::path& run
     const auto place = data_parallel ? place_of(environment) : Place{};
     const auto device_name = device_for(settings, place);
     const auto device = torch_device(device_name);
-    use_kernels(settings, device);
+    set_tf32_and_determinism(settings, device);
     const auto processes =
         data_parallel ? std::make_unique<Processes>(place, device) : std::make_unique<Processes>();
     auto opencl = device_that_draws(settings.opencl, place.leads() ? events.note : nullptr);

@@ -39,15 +39,15 @@ class Loop {
     void begin_scores(EpochReport& report);
     std::optional<ScoreReport> end_scores();
     void log_later_scores();
-    bool write(const std::function<void()>& something) const;
+    void try_writing(const std::function<void()>& write) const;
     void log(const Json& line) const {
-        write([&] { folder_->log(line); });
+        try_writing([&] { folder_->log(line); });
     }
     Json state_now();
     std::map<std::string, std::string> notes(std::uint64_t step) const;
     void save_best();
     void save();
-    bool keep();
+    void save_if_sound();
     std::string what_is_kept() const;
     [[noreturn]] void stop();
     void finish();
@@ -224,7 +224,7 @@ std::optional<ScoreReport> Loop::end_scores() {
         best_ = report;
         best_merit_ = scores->merit;
         unsaved_best_ = std::move(scores->weights);
-        write([this] { save_best(); });
+        try_writing([this] { save_best(); });
     }
     return report;
 }
@@ -269,14 +269,12 @@ Json Loop::state_now() {
     return state;
 }
 
-/// Where there is no room, training goes on, and says so.
-bool Loop::write(const std::function<void()>& something) const {
+/// Runs `write`. Where it throws Error, for want of room perhaps, training goes on, and says so.
+void Loop::try_writing(const std::function<void()>& write) const {
     try {
-        something();
-        return true;
+        write();
     } catch (const Error& e) {
         say(fmt::format("step {}: {}; training goes on", step_, e.what()));
-        return false;
     }
 }
 
@@ -297,12 +295,11 @@ void Loop::save() {
     kept_step_ = step_;
 }
 
-/// Keeps what is sound. False where it is not, or cannot be written.
-bool Loop::keep() {
+/// Saves, unless losses or weights are unsound.
+void Loop::save_if_sound() {
     kept_ = Clock::now();
     log_later_scores();
-    if (!watch_.sound() || !learner_.finite()) return false;
-    return write([this] { save(); });
+    if (watch_.sound() && learner_.finite()) try_writing([this] { save(); });
 }
 
 /// How a message about a training beyond hope ends.
@@ -314,7 +311,7 @@ std::string Loop::what_is_kept() const {
 /// A signal has asked for it: keeps the running step, if that can be.
 void Loop::stop() {
     if (sums_step_ != step_) read_losses();
-    keep();
+    save_if_sound();
     safe_points_.stop(
         fmt::format("{}: the checkpoint of step {} of {} is kept; the same command goes on from there",
                     folder_->path().string(), kept_step_, settings_.epochs * steps_an_epoch_));
@@ -339,7 +336,7 @@ TrainingResult Loop::run() {
         if (ends || step_ % between_readings == 0) read_losses();
         if (ends) end_epoch();
         if (leads() && sums_step_ == step_ && seconds_since(kept_) >= 60 * settings_.checkpoint_minutes)
-            keep();
+            save_if_sound();
         if (leads() && events_.progress)
             events_.progress(static_cast<double>(step_) / static_cast<double>(all), step_);
         if (leads() && step_ < all && safe_points_.asked()) stop();

@@ -20,7 +20,7 @@ struct TrainerSettings {
     std::uint64_t seed = 0;
     std::string device = "cpu",
                 opencl;  ///< of libtorch, as in "cuda:0"; of the sampler, as --device elsewhere
-    bool tf32 = false, deterministic = false;  ///< of CUDA's kernels: see use_kernels()
+    bool tf32 = false, deterministic = false;  ///< of CUDA's kernels: see set_tf32_and_determinism()
     int threads = 0;                           ///< 0: as many as the process may use
 
     /// What the rates are multiplied by in epoch `epoch`, from 0: rate_factor once for every drop that has come.

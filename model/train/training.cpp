@@ -31,7 +31,7 @@ at::Device torch_device(const std::string& name) {
     }
 }
 
-void use_kernels(const TrainerSettings& settings, const at::Device& device) {
+void set_tf32_and_determinism(const TrainerSettings& settings, const at::Device& device) {
     if (settings.tf32 && !device.is_cuda())
         throw Error("tf32: true is for CUDA; with device: {}, leave it out", settings.device);
     auto& context = at::globalContext();

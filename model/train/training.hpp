@@ -22,10 +22,10 @@ std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step);
 /// Throws Error where this libtorch cannot work on `name`, as in "cpu" or "cuda:1".
 at::Device torch_device(const std::string& name);
 
-/// Which of a GPU's kernels a training takes, for the whole process: float32 is 24 bits everywhere but with `tf32`, also where libtorch
+/// For the whole process, which of a GPU's kernels a training takes: float32 is 24 bits everywhere but with `tf32`, also where libtorch
 /// would have it otherwise; with `deterministic` what has no kernel of that kind is an error. Processors' kernels are exact and
 /// deterministic as they are. Throws Error for `tf32` on a processor.
-void use_kernels(const TrainerSettings& settings, const at::Device& device);
+void set_tf32_and_determinism(const TrainerSettings& settings, const at::Device& device);
 
 /// Of a configuration's "float32" or "float64".
 at::ScalarType torch_type(const std::string& precision);
