@@ -4,7 +4,7 @@
 
 #include "base/error.hpp"
 #include "model/generators/generator_file.hpp"
-#include "model/generators/generator_scorer.hpp"
+#include "model/generators/generator_validator.hpp"
 #include "model/nn/blas.hpp"
 #include "model/train/trainer.hpp"
 #include "model/train/training.hpp"

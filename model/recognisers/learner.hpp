@@ -4,7 +4,7 @@
 #include "eval/metrics/confusion.hpp"
 #include "model/recognisers/network.hpp"
 #include "model/train/augmentation.hpp"
-#include "model/train/scorer.hpp"
+#include "model/train/validator.hpp"
 #include "model/train/window_feed.hpp"
 
 namespace actformer::model {

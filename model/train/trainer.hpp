@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "ingest/dataset/dataset.hpp"
-#include "model/train/scorer.hpp"
 #include "model/train/trainer_settings.hpp"
 #include "model/train/training_events.hpp"
+#include "model/train/validator.hpp"
 
 namespace actformer::model {
 

@@ -6,8 +6,8 @@
 
 #include "model/generators/generator_settings.hpp"
 #include "model/generators/method.hpp"
-#include "model/train/judge.hpp"
-#include "model/train/scorer.hpp"
+#include "model/train/validation_metrics.hpp"
+#include "model/train/validator.hpp"
 
 namespace actformer::model {
 

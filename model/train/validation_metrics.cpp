@@ -1,4 +1,4 @@
-#include "model/train/judge.hpp"
+#include "model/train/validation_metrics.hpp"
 
 #include "base/error.hpp"
 #include "eval/metrics/confusion.hpp"

@@ -1,4 +1,4 @@
-#include "model/generators/generator_scorer.hpp"
+#include "model/generators/generator_validator.hpp"
 
 #include <algorithm>
 #include <set>
