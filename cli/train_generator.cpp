@@ -18,7 +18,7 @@ struct TrainGeneratorOptions : TrainingOptions {
     bool data_parallel = false;
 };
 
-nlohmann::ordered_json to_json(const model::ScoreReport& scores) {
+nlohmann::ordered_json to_json(const model::ValidationReport& scores) {
     nlohmann::ordered_json json{{"epoch", scores.epoch}, {"step", scores.step}};
     json.update(scores.values);
     return json;

@@ -70,7 +70,7 @@ model::TrainingEvents TrainingDisplay::events() {
         progress_.clear();
         print_epoch(report);
     };
-    events.scores = [this](const model::ScoreReport& scores) {
+    events.scores = [this](const model::ValidationReport& scores) {
         progress_.clear();
         say(stderr, "epoch {:>4}: {}{}\n", scores.epoch, text_of(scores.values), scores.best ? "  best" : "");
     };

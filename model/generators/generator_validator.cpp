@@ -19,8 +19,9 @@ std::vector<std::uint32_t> classes_of(const kernels::ClipStore& clips) {
 
 }  // namespace
 
-GeneratorScorer::GeneratorScorer(const Config& config, const MotionSpec& spec, const ingest::Dataset& dataset,
-                                 const kernels::ClipStore& clips, std::string device, Learner& learner)
+GeneratorValidator::GeneratorValidator(const Config& config, const MotionSpec& spec,
+                                       const ingest::Dataset& dataset, const kernels::ClipStore& clips,
+                                       std::string device, Learner& learner)
     : config_(config),
       spec_(spec),
       settings_(generator_trainer_settings(config)),
@@ -28,9 +29,9 @@ GeneratorScorer::GeneratorScorer(const Config& config, const MotionSpec& spec, c
       learner_(learner),
       frames_(static_cast<std::uint32_t>(config.get<std::int64_t>("frames"))),
       classes_(classes_of(clips)),
-      judge_(settings_.recogniser, settings_.opencl, dataset, clips, frames_) {}
+      metrics_(settings_.recogniser, settings_.opencl, dataset, clips, frames_) {}
 
-Labelled GeneratorScorer::motions_of(const std::vector<Array>& weights) const {
+Labelled GeneratorValidator::motions_of(const std::vector<Array>& weights) const {
     const auto maker = method_named(config_.model(), spec_.where).maker(config_, spec_, weights, device_);
     const auto seed = step_seed(settings_.seed, scoring_draws);
     const auto batch = maker->batch(), wanted = settings_.score_per_class;
@@ -46,28 +47,28 @@ Labelled GeneratorScorer::motions_of(const std::vector<Array>& weights) const {
     return all;
 }
 
-void GeneratorScorer::begin(std::uint64_t epoch, std::uint64_t step) {
-    scores_.report.epoch = epoch;
-    scores_.report.step = step;
-    scores_.weights = learner_.keeps_ema() ? learner_.ema_weights() : learner_.weights();
-    auto motions = motions_of(scores_.weights);
+void GeneratorValidator::begin(std::uint64_t epoch, std::uint64_t step) {
+    validation_.report.epoch = epoch;
+    validation_.report.step = step;
+    validation_.weights = learner_.keeps_ema() ? learner_.ema_weights() : learner_.weights();
+    auto motions = motions_of(validation_.weights);
     try {
-        judged_ = std::async(std::launch::async,
-                             [this, motions = std::move(motions)] { return judge_.score(motions); });
+        scores_ = std::async(std::launch::async,
+                             [this, motions = std::move(motions)] { return metrics_.score(motions); });
     } catch (const std::system_error& e) {
         fail_without_thread(e);
     }
 }
 
-std::optional<Scores> GeneratorScorer::end() {
-    if (!judged_.valid()) return std::nullopt;
-    const auto found = judged_.get();
-    scores_.report.values = {{"accuracy", found.accuracy},
-                             {"real_accuracy", judge_.real_accuracy()},
-                             {"fid_whole", found.fid_whole}};
-    if (found.fid_mean) scores_.report.values["fid_mean"] = *found.fid_mean;
-    scores_.merit = -found.fid_whole;
-    return std::move(scores_);
+std::optional<Validation> GeneratorValidator::end() {
+    if (!scores_.valid()) return std::nullopt;
+    const auto found = scores_.get();
+    validation_.report.values = {{"accuracy", found.accuracy},
+                                 {"real_accuracy", metrics_.real_accuracy()},
+                                 {"fid_whole", found.fid_whole}};
+    if (found.fid_mean) validation_.report.values["fid_mean"] = *found.fid_mean;
+    validation_.selection_score = -found.fid_whole;
+    return std::move(validation_);
 }
 
 }  // namespace actformer::model

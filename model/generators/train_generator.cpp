@@ -36,19 +36,19 @@ TrainingResult train_here(const Config& config, const std::filesystem::path& run
     const auto clips = view_to_draw(opencl, dataset, settings.train_split).store;
     const LearnerSetup setup{clips, device, *processes};
     const auto learner = method.learner(config, spec, setup);
-    std::unique_ptr<GeneratorScorer> scorer;
+    std::unique_ptr<GeneratorValidator> validator;
     if (place.leads() && !settings.recogniser.empty()) {
-        scorer = std::make_unique<GeneratorScorer>(config, spec, dataset, clips, device_name, *learner);
+        validator = std::make_unique<GeneratorValidator>(config, spec, dataset, clips, device_name, *learner);
         if (events.note)
             events.note(fmt::format("the recogniser knows {:.1f} % of the {} real windows of split {}",
-                                    100 * scorer->judge().real_accuracy(), scorer->judge().real_windows(),
-                                    settings.train_split));
+                                    100 * validator->metrics().real_accuracy(),
+                                    validator->metrics().real_windows(), settings.train_split));
     }
     const TrainingTask task{method.name, config, settings, dataset,
                             [&](const auto& path, const auto& weights, const auto& notes) {
                                 save_generator(path, weights, config, subjects, notes);
                             }};
-    return train(task, *learner, setup, scorer.get(), run, events);
+    return train(task, *learner, setup, validator.get(), run, events);
 }
 
 }  // namespace

@@ -65,16 +65,16 @@ eval::Confusion RecogniserLearner::confusion_on(const kernels::ClipStore& clips)
     return confusion;
 }
 
-void TestSplitScorer::begin(std::uint64_t epoch, std::uint64_t step) {
+void TestSplitValidator::begin(std::uint64_t epoch, std::uint64_t step) {
     confusion_ = learner_.confusion_on(clips_);
     const auto accuracy = confusion_->mean_class_accuracy();
-    auto& scores = scores_.emplace();
-    scores.report.epoch = epoch;
-    scores.report.step = step;
-    scores.report.values["class_accuracy"] = scores.merit = accuracy;
-    scores.report.values["sample_accuracy"] = confusion_->sample_accuracy();
-    scores.report.values["confusion"] = confusion_->rows();
-    scores.weights = learner_.weights();
+    auto& validation = validation_.emplace();
+    validation.report.epoch = epoch;
+    validation.report.step = step;
+    validation.report.values["class_accuracy"] = validation.selection_score = accuracy;
+    validation.report.values["sample_accuracy"] = confusion_->sample_accuracy();
+    validation.report.values["confusion"] = confusion_->rows();
+    validation.weights = learner_.weights();
 }
 
 }  // namespace actformer::model

@@ -44,15 +44,15 @@ class RecogniserLearner : public Learner {
     at::Tensor sums_;            ///< [loss, windows recognised]
 };
 
-class TestSplitScorer : public Scorer {
+class TestSplitValidator : public Validator {
   public:
-    /// Scores `learner`, the one that is trained, on `clips`; both outlive the scorer.
-    TestSplitScorer(std::string split, const kernels::ClipStore& clips, RecogniserLearner& learner)
+    /// Scores `learner`, the one that is trained, on `clips`; both outlive the validator.
+    TestSplitValidator(std::string split, const kernels::ClipStore& clips, RecogniserLearner& learner)
         : split_(std::move(split)), clips_(clips), learner_(learner) {}
 
     bool due(std::uint64_t /*epoch*/, bool /*last*/) const override { return true; }
     void begin(std::uint64_t epoch, std::uint64_t step) override;
-    std::optional<Scores> end() override { return std::exchange(scores_, std::nullopt); }
+    std::optional<Validation> end() override { return std::exchange(validation_, std::nullopt); }
     bool in_background() const override { return false; }
     std::string fingerprint() const override { return split_; }
 
@@ -62,7 +62,7 @@ class TestSplitScorer : public Scorer {
     std::string split_;
     const kernels::ClipStore& clips_;
     RecogniserLearner& learner_;
-    std::optional<Scores> scores_;
+    std::optional<Validation> validation_;
     std::optional<eval::Confusion> confusion_;
 };
 

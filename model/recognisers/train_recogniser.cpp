@@ -85,8 +85,8 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
                               Augmentation(settings, ingest::representation_of(dataset, joints),
                                            ingest::topology_of(dataset, joints), dataset.folder().string()),
                               setup);
-    std::optional<TestSplitScorer> scorer;
-    if (test_clips) scorer.emplace(settings.test_split, *test_clips, learner);
+    std::optional<TestSplitValidator> validator;
+    if (test_clips) validator.emplace(settings.test_split, *test_clips, learner);
     const TrainingTask task{config.model(), config, settings, dataset,
                             [&](const auto& path, const auto& weights, auto notes) {
                                 notes["configuration"] = config.yaml();
@@ -95,10 +95,11 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
     if (const auto line = missing_classes(clips, header.classes, settings.train_split);
         !line.empty() && events.note)
         events.note(line);
-    RecogniserResult result{train(task, learner, setup, scorer ? &*scorer : nullptr, run, events),
+    RecogniserResult result{train(task, learner, setup, validator ? &*validator : nullptr, run, events),
                             eval::Confusion(header.classes.size()), header.classes};
-    if (scorer)  // an earlier call may have done all epochs
-        result.confusion = scorer->confusion() ? *scorer->confusion() : learner.confusion_on(*test_clips);
+    if (validator)  // an earlier call may have done all epochs
+        result.confusion =
+            validator->confusion() ? *validator->confusion() : learner.confusion_on(*test_clips);
     return result;
 }
 

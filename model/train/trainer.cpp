@@ -21,7 +21,7 @@ double seconds_since(Clock::time_point start) {
 
 class Loop {
   public:
-    Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Scorer* scorer,
+    Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Validator* validator,
          const std::filesystem::path& run, const TrainingEvents& events, const SafePoints& safe_points);
     TrainingResult run();
 
@@ -36,9 +36,9 @@ class Loop {
     std::vector<double> read_sums();
     void read_losses();
     void end_epoch();
-    void begin_scores(EpochReport& report);
-    std::optional<ScoreReport> end_scores();
-    void log_later_scores();
+    void begin_validation(EpochReport& report);
+    std::optional<ValidationReport> end_validation();
+    void log_later_validation();
     void try_writing(const std::function<void()>& write) const;
     void log(const Json& line) const {
         try_writing([&] { folder_->log(line); });
@@ -58,7 +58,7 @@ class Loop {
     const TrainerSettings& settings_;
     Learner& learner_;
     const Processes& processes_;
-    Scorer* scorer_;
+    Validator* validator_;
     const TrainingEvents& events_;
     const SafePoints& safe_points_;
     std::unique_ptr<RunFolder> folder_;  ///< of rank 0
@@ -69,19 +69,19 @@ class Loop {
     Clock::time_point epoch_start_, kept_;
     std::uint64_t timed_from_ = 0, kept_step_ = 0;
     double epoch_seconds_ = 0;  ///< spent on the running epoch by earlier calls
-    std::optional<ScoreReport> best_, last_;
+    std::optional<ValidationReport> best_, last_;
     std::optional<std::vector<Array>>
         unsaved_best_;  ///< weights that could not be written when they were the best
-    double best_merit_ = 0;
+    double best_selection_score_ = 0;
 };
 
-Loop::Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Scorer* scorer,
+Loop::Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Validator* validator,
            const std::filesystem::path& run, const TrainingEvents& events, const SafePoints& safe_points)
     : task_(task),
       settings_(task.settings),
       learner_(learner),
       processes_(setup.processes),
-      scorer_(scorer),
+      validator_(validator),
       events_(events),
       safe_points_(safe_points) {
     windows_a_step_ = learner.windows_a_step() * static_cast<std::uint64_t>(processes_.place().size);
@@ -135,10 +135,10 @@ void Loop::resume() {
         const auto sums = state.at("sums").get<std::vector<double>>();
         for (std::size_t i = 0; i < sums.size(); ++i) learner_.sums()[static_cast<std::int64_t>(i)] = sums[i];
         epoch_seconds_ = state.at("seconds");
-        if (scorer_ && state.contains("best") && state.at("scorer") == scorer_->fingerprint()) {
+        if (validator_ && state.contains("best") && state.at("scorer") == validator_->fingerprint()) {
             const auto& best = state.at("best");
-            best_ = ScoreReport{best.at("epoch"), best.at("step"), best.at("values"), true};
-            best_merit_ = best.at("merit");
+            best_ = ValidationReport{best.at("epoch"), best.at("step"), best.at("values"), true};
+            best_selection_score_ = best.at("merit");
         }
         say(step_ % steps_an_epoch_ == 0
                 ? fmt::format("going on after epoch {} of {}", epoch(), settings_.epochs)
@@ -177,7 +177,7 @@ void Loop::read_losses() {
     if (!leads())
         throw Error("rank {}: stopped at step {}, as {}; rank 0 says which checkpoint is kept",
                     processes_.place().rank, step_, verdict);
-    log_later_scores();
+    log_later_validation();
     throw Error("{}: stopped at step {}, as {}; {}", folder_->path().string(), step_, verdict,
                 what_is_kept());
 }
@@ -191,7 +191,7 @@ void Loop::end_epoch() {
     learner_.sums().zero_();
     sums_.assign(sums_.size(), 0);
     if (leads()) {
-        begin_scores(report);
+        begin_validation(report);
         Json line{{"epoch", report.epoch}, {"step", report.step}};
         for (const auto& loss : report.losses) line[loss.key] = loss.value;
         if (report.scores) line.update(report.scores->values);
@@ -206,31 +206,31 @@ void Loop::end_epoch() {
     epoch_start_ = Clock::now();
 }
 
-void Loop::begin_scores(EpochReport& report) {
-    if (!scorer_ || !scorer_->due(report.epoch, report.epoch == settings_.epochs)) return;
-    log_later_scores();
-    scorer_->begin(report.epoch, step_);
-    if (!scorer_->in_background()) report.scores = end_scores();
+void Loop::begin_validation(EpochReport& report) {
+    if (!validator_ || !validator_->due(report.epoch, report.epoch == settings_.epochs)) return;
+    log_later_validation();
+    validator_->begin(report.epoch, step_);
+    if (!validator_->in_background()) report.scores = end_validation();
 }
 
 /// Waits for the scores on their way, if there are any, and keeps the best one's weights.
-std::optional<ScoreReport> Loop::end_scores() {
-    auto scores = scorer_ ? scorer_->end() : std::nullopt;
-    if (!scores) return std::nullopt;
-    auto& report = scores->report;
-    report.best = !best_ || scores->merit > best_merit_;
+std::optional<ValidationReport> Loop::end_validation() {
+    auto validation = validator_ ? validator_->end() : std::nullopt;
+    if (!validation) return std::nullopt;
+    auto& report = validation->report;
+    report.best = !best_ || validation->selection_score > best_selection_score_;
     last_ = report;
     if (report.best) {
         best_ = report;
-        best_merit_ = scores->merit;
-        unsaved_best_ = std::move(scores->weights);
+        best_selection_score_ = validation->selection_score;
+        unsaved_best_ = std::move(validation->weights);
         try_writing([this] { save_best(); });
     }
     return report;
 }
 
-void Loop::log_later_scores() {
-    const auto report = end_scores();
+void Loop::log_later_validation() {
+    const auto report = end_validation();
     if (!report) return;
     Json line{{"epoch", report->epoch}, {"step", report->step}};
     line.update(report->values);
@@ -260,12 +260,12 @@ Json Loop::state_now() {
                {"seed", settings_.seed},  // with the steps done, all there is to the random numbers' state
                {"sums", sums_},
                {"seconds", epoch_seconds_ + seconds_since(epoch_start_)}};
-    if (scorer_) state["scorer"] = scorer_->fingerprint();
+    if (validator_) state["scorer"] = validator_->fingerprint();
     if (best_)
         state["best"] = {{"epoch", best_->epoch},
                          {"step", best_->step},
                          {"values", best_->values},
-                         {"merit", best_merit_}};
+                         {"merit", best_selection_score_}};
     return state;
 }
 
@@ -298,7 +298,7 @@ void Loop::save() {
 /// Saves, unless losses or weights are unsound.
 void Loop::save_if_sound() {
     kept_ = Clock::now();
-    log_later_scores();
+    log_later_validation();
     if (watch_.sound() && learner_.finite()) try_writing([this] { save(); });
 }
 
@@ -319,7 +319,7 @@ void Loop::stop() {
 
 /// The last of it must be kept.
 void Loop::finish() {
-    log_later_scores();
+    log_later_validation();
     if (!learner_.finite())
         throw Error("{}: weights of step {} are NaN or infinite; {}", folder_->path().string(), step_,
                     what_is_kept());
@@ -354,12 +354,12 @@ TrainingResult Loop::run() {
 
 }  // namespace
 
-TrainingResult train(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Scorer* scorer,
-                     const std::filesystem::path& run, const TrainingEvents& events) {
+TrainingResult train(const TrainingTask& task, Learner& learner, const LearnerSetup& setup,
+                     Validator* validator, const std::filesystem::path& run, const TrainingEvents& events) {
     const SafePoints safe_points;
     const auto& place = setup.processes.place();
     try {
-        return Loop(task, learner, setup, scorer, run, events, safe_points).run();
+        return Loop(task, learner, setup, validator, run, events, safe_points).run();
     } catch (const Error&) {
         throw;
     } catch (const std::exception&) {  // rank 0 has stopped, and the others wait for it in vain

@@ -32,14 +32,14 @@ struct TrainingTask {
 
 /// Trains in the folder `run`, going on behind its newest whole checkpoint: the weights come out as they would have without
 /// the interruption, bit for bit on as many threads. Writes config.yaml, log.jsonl, the last two checkpoints,
-/// weights-last.h5, weights-average.h5 where the learner keeps an EMA, and with a scorer, which may be null, weights-best.h5.
+/// weights-last.h5, weights-average.h5 where the learner keeps an EMA, and with a validator, which may be null, weights-best.h5.
 /// An epoch is as many windows as there are clips. What cannot be written is told, and training goes on.
 ///
 /// Of several processes rank 0 alone writes, scores and tells.
 ///
 /// Throws Error where another training holds the folder, or one of other settings or data is in it; and where losses
 /// are NaN or infinite, or the learner is in trouble for long, the last checkpoint before that being kept.
-TrainingResult train(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Scorer* scorer,
-                     const std::filesystem::path& run, const TrainingEvents& events);
+TrainingResult train(const TrainingTask& task, Learner& learner, const LearnerSetup& setup,
+                     Validator* validator, const std::filesystem::path& run, const TrainingEvents& events);
 
 }  // namespace actformer::model

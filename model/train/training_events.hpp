@@ -24,7 +24,7 @@ using Measures = std::vector<Measure>;
 double value_of(const Measures& measures, const std::string& key);
 
 /// Scores of the weights of some step.
-struct ScoreReport {
+struct ValidationReport {
     std::uint64_t epoch = 0, step = 0;
     nlohmann::ordered_json values;  ///< by key, as in log.jsonl
     bool best = false;              ///< of all so far
@@ -34,7 +34,7 @@ struct ScoreReport {
 struct EpochReport {
     std::uint64_t epoch = 0, step = 0;  ///< finished
     Measures losses;
-    std::optional<ScoreReport> scores;  ///< where they do not come later
+    std::optional<ValidationReport> scores;  ///< where they do not come later
     double seconds = 0, steps_a_second = 0, windows_a_second = 0;
 };
 
@@ -42,13 +42,13 @@ struct EpochReport {
 struct TrainingEvents {
     std::function<void(double fraction, std::uint64_t steps)> progress;  ///< of the whole training
     std::function<void(const EpochReport&)> epoch;
-    std::function<void(const ScoreReport&)> scores;  ///< those that come some steps after their epoch
-    std::function<void(const std::string&)> note;    ///< one line
+    std::function<void(const ValidationReport&)> scores;  ///< those that come some steps after their epoch
+    std::function<void(const std::string&)> note;         ///< one line
 };
 
 struct TrainingResult {
     std::uint64_t epochs = 0, steps = 0;
-    std::optional<ScoreReport> best, last;                         ///< none where nothing was scored
+    std::optional<ValidationReport> best, last;                    ///< none where nothing was scored
     std::filesystem::path weights, average_weights, best_weights;  ///< empty where there are none
 };
 

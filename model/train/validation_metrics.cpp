@@ -22,7 +22,7 @@ const std::string& checked(const std::string& opencl) {
 
 }  // namespace
 
-struct Judge::Parts {
+struct ValidationMetrics::Parts {
     Parts(const std::filesystem::path& recogniser, const std::string& opencl)
         : device(checked(opencl)), extractor(device, recogniser, together) {}
 
@@ -43,8 +43,9 @@ struct Judge::Parts {
     std::uint32_t frames = 0;
 };
 
-Judge::Judge(const std::filesystem::path& recogniser, const std::string& opencl,
-             const ingest::Dataset& dataset, const kernels::ClipStore& clips, std::uint32_t frames)
+ValidationMetrics::ValidationMetrics(const std::filesystem::path& recogniser, const std::string& opencl,
+                                     const ingest::Dataset& dataset, const kernels::ClipStore& clips,
+                                     std::uint32_t frames)
     : parts_(std::make_unique<Parts>(recogniser, opencl)) {
     const auto motions = eval::describe(dataset);
     parts_->extractor.check_fits(motions);
@@ -59,21 +60,21 @@ Judge::Judge(const std::filesystem::path& recogniser, const std::string& opencl,
     parts_->real_accuracy = eval::confusion_of(samples).mean_class_accuracy();
 }
 
-Judge::~Judge() = default;
+ValidationMetrics::~ValidationMetrics() = default;
 
-double Judge::real_accuracy() const {
+double ValidationMetrics::real_accuracy() const {
     return parts_->real_accuracy;
 }
 
-std::size_t Judge::real_windows() const {
+std::size_t ValidationMetrics::real_windows() const {
     return parts_->real.samples;
 }
 
-const std::string& Judge::checksum() const {
+const std::string& ValidationMetrics::checksum() const {
     return parts_->extractor.checksum();
 }
 
-JudgeScores Judge::score(const Labelled& motions) {
+ValidationScores ValidationMetrics::score(const Labelled& motions) {
     auto samples = parts_->nothing();
     const auto one = motions.values.size() / motions.labels.size();
     for (std::size_t first = 0; first < motions.labels.size(); first += together) {

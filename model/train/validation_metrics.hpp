@@ -19,26 +19,26 @@ struct Labelled {
     std::vector<std::uint32_t> labels;
 };
 
-struct JudgeScores {
+struct ValidationScores {
     double accuracy = 0;             ///< 0..1, the mean over classes of the hit rate
     double fid_whole = 0;            ///< FIDw
     std::optional<double> fid_mean;  ///< FIDm; none where no class has two motions on both sides
 };
 
-class Judge {
+class ValidationMetrics {
   public:
     /// `recogniser`: weights, or the folder of a training (see eval::weights_of). Takes features of every consecutive window of
     /// `clips`, a split of `dataset`. Throws Error where the recogniser does not fit the dataset.
-    Judge(const std::filesystem::path& recogniser, const std::string& opencl, const ingest::Dataset& dataset,
-          const kernels::ClipStore& clips, std::uint32_t frames);
-    ~Judge();
+    ValidationMetrics(const std::filesystem::path& recogniser, const std::string& opencl,
+                      const ingest::Dataset& dataset, const kernels::ClipStore& clips, std::uint32_t frames);
+    ~ValidationMetrics();
 
     double real_accuracy() const;  ///< of the real windows
     std::size_t real_windows() const;
     const std::string& checksum() const;  ///< of the recogniser's weights
 
     /// From one thread at a time; which one does not matter.
-    JudgeScores score(const Labelled& motions);
+    ValidationScores score(const Labelled& motions);
 
   private:
     struct Parts;
