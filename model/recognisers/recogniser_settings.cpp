@@ -6,98 +6,99 @@
 namespace actformer::model {
 namespace {
 
-void add_network_keys(KeyTable<RecogniserSettings>& table) {
-    using Settings = RecogniserSettings;
-    add_subject_keys(table);
-    table
-        .add(&Settings::joints, {.name = "joints",
-                                 .meaning = "own, or common15: the 15 that NTU RGB+D, GTA Combat and SMPL "
-                                            "share, as limbs, for FIDa across datasets",
-                                 .choices = {"own", "common15"}})
-        .add(&Settings::width, {.name = "width",
-                                .meaning = "times the public network's 64, 128 and 256 channels",
-                                .least = 0.05,
-                                .most = 8})
-        .add(&Settings::dropout, {.name = "dropout",
-                                  .meaning = "share dropped behind every temporal convolution",
-                                  .least = 0,
-                                  .most = 0.99})
-        .add(&Settings::frames, {.name = "frames", .meaning = "frames a window", .least = 4, .most = 4096});
+using RecogniserKeys = KeyTable<RecogniserSettings>;
+
+void add_frames_key(RecogniserKeys& table, double least) {
+    table.add(&RecogniserSettings::frames,
+              {.name = "frames", .meaning = "frames a window", .least = least, .most = 4096});
 }
 
-template <typename Settings>
-void add_noise_key(KeyTable<Settings>& table) {
+void add_network_keys(RecogniserKeys& table) {
+    add_subject_keys(table);
+    table
+        .add(&RecogniserSettings::joints,
+             {.name = "joints",
+              .meaning = "own, or common15: the 15 that NTU RGB+D, GTA Combat and SMPL "
+                         "share, as limbs, for FIDa across datasets",
+              .choices = {"own", "common15"}})
+        .add(&RecogniserSettings::width, {.name = "width",
+                                          .meaning = "times the public network's 64, 128 and 256 channels",
+                                          .least = 0.05,
+                                          .most = 8})
+        .add(&RecogniserSettings::dropout, {.name = "dropout",
+                                            .meaning = "share dropped behind every temporal convolution",
+                                            .least = 0,
+                                            .most = 0.99});
+    add_frames_key(table, 4);
+}
+
+void add_weight_decay_key(RecogniserKeys& table) {
+    table.add(&RecogniserSettings::weight_decay, {.name = "weight_decay",
+                                                  .meaning = "times each weight, added to its gradient",
+                                                  .least = 0,
+                                                  .most = 1});
+}
+
+void add_optimiser_keys(RecogniserKeys& table) {
+    table
+        .add(&RecogniserSettings::rate,
+             {.name = "rate", .meaning = "learning rate at the start", .least = 0, .most = 100})
+        .add(&RecogniserSettings::momentum,
+             {.name = "momentum", .meaning = "of stochastic gradient descent", .least = 0, .most = 0.9999})
+        .add(&RecogniserSettings::nesterov, {.name = "nesterov", .meaning = "Nesterov's momentum"});
+    add_weight_decay_key(table);
+    table.add(&RecogniserSettings::precision,
+              {.name = "precision",
+               .meaning = "float32, or float64, slower, where rounding decides next to nothing",
+               .choices = {"float32", "float64"}});
+}
+
+/// Of every recogniser's training.
+void add_training_keys(RecogniserKeys& table) {
+    table.add(&RecogniserSettings::test_split,
+              {.name = "test_split", .meaning = "clips to score after every epoch; empty scores none"});
+    add_augmentation_keys(table);
     table.add(
-        &Settings::noise,
+        &RecogniserSettings::noise,
         {.name = "noise",
          .meaning = "deviation of what is added to all numbers to learn from, so that tremble nobody sees "
                     "decides nothing; 0 as published",
          .least = 0,
          .most = 10});
+    add_trainer_keys(table);
 }
 
-void add_optimiser_keys(KeyTable<RecogniserSettings>& table) {
-    using Settings = RecogniserSettings;
-    table
-        .add(&Settings::rate,
-             {.name = "rate", .meaning = "learning rate at the start", .least = 0, .most = 100})
-        .add(&Settings::momentum,
-             {.name = "momentum", .meaning = "of stochastic gradient descent", .least = 0, .most = 0.9999})
-        .add(&Settings::nesterov, {.name = "nesterov", .meaning = "Nesterov's momentum"})
-        .add(&Settings::weight_decay, {.name = "weight_decay",
-                                       .meaning = "times each weight, added to its gradient",
-                                       .least = 0,
-                                       .most = 1})
-        .add(&Settings::precision,
-             {.name = "precision",
-              .meaning = "float32, or float64, slower, where rounding decides next to nothing",
-              .choices = {"float32", "float64"}});
-}
-
-const KeyTable<RecogniserSettings>& table() {
+const RecogniserKeys& stgcn_table() {
     static const auto all = [] {
-        KeyTable<RecogniserSettings> keys;
+        RecogniserKeys keys;
         add_network_keys(keys);
         add_optimiser_keys(keys);
-        keys.add(&RecogniserSettings::test_split,
-                 {.name = "test_split", .meaning = "clips to score after every epoch; empty scores none"});
-        add_augmentation_keys(keys);
-        add_noise_key(keys);
-        add_trainer_keys(keys);
+        add_training_keys(keys);
         return keys;
     }();
     return all;
 }
 
-/// Presets of the GRU classifier. How the published one was trained is not known.
-struct GruPresets : RecogniserSettings {
-    GruPresets() {
-        kind = RecogniserKind::gru;
-        epochs = 200;
-        rate_drops = {};
-        rate = 0.001;
-        weight_decay = 0;
-    }
-};
+/// Of the GRU classifier. How the published one was trained is not known.
+RecogniserSettings gru_presets() {
+    RecogniserSettings presets;
+    presets.kind = RecogniserKind::gru;
+    presets.epochs = 200;
+    presets.rate_drops = {};
+    presets.rate = 0.001;
+    presets.weight_decay = 0;
+    return presets;
+}
 
-const KeyTable<GruPresets>& gru_table() {
-    using Settings = RecogniserSettings;
+const RecogniserKeys& gru_table() {
     static const auto all = [] {
-        KeyTable<GruPresets> keys;
+        RecogniserKeys keys(gru_presets());
         add_subject_keys(keys);
-        keys.add(&Settings::frames,
-                 {.name = "frames", .meaning = "frames a window", .least = 1, .most = 4096})
-            .add(&Settings::rate,
-                 {.name = "rate", .meaning = "learning rate of Adam at the start", .least = 0, .most = 100})
-            .add(&Settings::weight_decay, {.name = "weight_decay",
-                                           .meaning = "times each weight, added to its gradient",
-                                           .least = 0,
-                                           .most = 1})
-            .add(&Settings::test_split,
-                 {.name = "test_split", .meaning = "clips to score after every epoch; empty scores none"});
-        add_augmentation_keys(keys);
-        add_noise_key(keys);
-        add_trainer_keys(keys);
+        add_frames_key(keys, 1);
+        keys.add(&RecogniserSettings::rate,
+                 {.name = "rate", .meaning = "learning rate of Adam at the start", .least = 0, .most = 100});
+        add_weight_decay_key(keys);
+        add_training_keys(keys);
         return keys;
     }();
     return all;
@@ -120,7 +121,7 @@ void check_motions(const RecogniserSettings& settings, std::uint32_t persons, st
 
 Config recogniser_config(RecogniserKind kind) {
     return kind == RecogniserKind::gru ? Config("gru", gru_table().keys())
-                                       : Config("recogniser", table().keys(), {"stgcn"});
+                                       : Config("recogniser", stgcn_table().keys(), {"stgcn"});
 }
 
 RecogniserKind recogniser_kind_in(const std::filesystem::path& file) {
@@ -128,8 +129,7 @@ RecogniserKind recogniser_kind_in(const std::filesystem::path& file) {
 }
 
 RecogniserSettings recogniser_settings(const Config& config) {
-    if (config.model() == "gru") return gru_table().read(config);
-    return table().read(config);
+    return (config.model() == "gru" ? gru_table() : stgcn_table()).read(config);
 }
 
 StgcnSettings network_for(const RecogniserSettings& settings, ingest::Representation representation,

@@ -37,7 +37,6 @@ struct RecogniserSettings : TrainerSettings, AugmentationSettings {
     ingest::Joints joints_seen() const {
         return joints == "common15" ? ingest::Joints::common15 : ingest::Joints::own;
     }
-    double rate_at(std::uint64_t epoch) const { return rate * rate_share(epoch); }
 };
 
 /// Every key at its preset, of an ST-GCN (`model: recogniser`) or a GRU classifier (`model: gru`).

@@ -1,5 +1,5 @@
-// Settings and the configuration's keys that fill them, each said once: member, name, range, meaning; its preset is the
-// member's initial value.
+// Settings and the configuration's keys that fill them, each said once: member, name, range, meaning; its preset is what the
+// member is in the table's presets.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +16,15 @@ namespace actformer::model {
 template <typename Settings>
 class KeyTable {
   public:
+    /// What settings are before a configuration is read.
+    explicit KeyTable(Settings presets = {}) : presets_(std::move(presets)) {}
+
     /// A member of type bool, string, list of std::int64_t, any number, or an enum whose values `key.choices` name in order;
     /// `member` is a pointer to it, or a function that takes the settings and returns a reference.
     template <typename Access>
     KeyTable& add(Access member, Key key) {
         using Member = std::remove_cvref_t<std::invoke_result_t<Access, Settings&>>;
-        const Settings presets;
-        key.preset = value_of(std::invoke(member, presets), key);
+        key.preset = value_of(std::invoke(member, presets_), key);
         rows_.push_back({key, [member, key](const Config& config, Settings& settings) {
                              std::invoke(member, settings) = taken<Member>(config, key);
                          }});
@@ -36,7 +38,7 @@ class KeyTable {
     }
 
     Settings read(const Config& config) const {
-        Settings settings;
+        auto settings = presets_;
         for (const auto& row : rows_) row.take(config, settings);
         return settings;
     }
@@ -70,6 +72,7 @@ class KeyTable {
         }
     }
 
+    Settings presets_;
     std::vector<Row> rows_;
 };
 

@@ -31,7 +31,7 @@ inline void draw(const kernels::ClipStore& clips, const model::RecogniserSetting
         const auto windows = feed.batch(step);
         x.push_back(copied(windows, clips.table(), settings.frames));
         labels.push_back(model::labels_of(windows, at::kCPU));
-        course.lessons.rates.push_back(settings.rate_at(step / course.steps_an_epoch));
+        course.lessons.rates.push_back(settings.rate * settings.rate_share(step / course.steps_an_epoch));
         course.lessons.seeds.push_back(model::step_seed(settings.seed, step));
     }
     course.lessons.x = at::stack(x);

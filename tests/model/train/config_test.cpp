@@ -46,9 +46,9 @@ TEST_F(Configs, TakesValuesAndKeepsPresets) {
     EXPECT_FALSE(settings.nesterov);
     EXPECT_EQ(settings.data, "some where");
     EXPECT_EQ(settings.epochs, 80U);
-    EXPECT_DOUBLE_EQ(settings.rate_at(2), 0.05);
-    EXPECT_DOUBLE_EQ(settings.rate_at(3), 0.005);
-    EXPECT_NEAR(settings.rate_at(7), 0.0005, 1e-12);
+    EXPECT_EQ(settings.rate_share(2), 1);
+    EXPECT_DOUBLE_EQ(settings.rate_share(3), 0.1);
+    EXPECT_DOUBLE_EQ(settings.rate_share(7), 0.01);
 }
 
 TEST_F(Configs, SuggestsTheRightKey) {
