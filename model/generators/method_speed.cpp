@@ -1,12 +1,16 @@
 #include "model/generators/method_speed.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <utility>
 
 #include "base/process/usage.hpp"
 #include "ingest/dataset/described_motions.hpp"
 #include "kernels/sampler.hpp"
+#include "model/cpu/layer_clock.hpp"
 #include "model/generators/generator_settings.hpp"
 #include "model/generators/method.hpp"
 #include "model/nn/blas.hpp"
@@ -18,14 +22,27 @@ namespace {
 
 constexpr std::uint32_t motions_timed = 100, clips_made = 64;
 
-void time_into(Seconds& best, const std::function<void()>& work) {
+/// Times `work`, with its layers where it runs `on_processors`, and keeps what is the least so far.
+void time_into(WorkTime& best, const std::function<void()>& work, bool on_processors) {
     using Clock = std::chrono::steady_clock;
-    const auto keep = [](double& least, double now) { least = least == 0 ? now : std::min(least, now); };
+    std::vector<LayerTime> layers;
+    if (on_processors)
+        listen_to_layers([&](const std::string& layer, bool backward, double seconds) {
+            auto found = std::ranges::find(layers, layer, &LayerTime::layer);
+            if (found == layers.end()) found = layers.insert(found, LayerTime{layer});
+            (backward ? found->backward : found->forward) += 1e3 * seconds;
+        });
     const auto start = Clock::now();
     const double before = processor_seconds();
     work();
-    keep(best.wall, std::chrono::duration<double>(Clock::now() - start).count());
-    keep(best.processors, processor_seconds() - before);
+    const double wall = std::chrono::duration<double>(Clock::now() - start).count();
+    const double processors = processor_seconds() - before;
+    listen_to_layers({});
+    if (best.wall == 0 || wall < best.wall) {
+        best.wall = wall;
+        best.layers = std::move(layers);
+    }
+    best.processors = best.processors == 0 ? processors : std::min(best.processors, processors);
 }
 
 Config config_of(const MethodSpeedRequest& request) {
@@ -34,6 +51,12 @@ Config config_of(const MethodSpeedRequest& request) {
     config.override_with("batch=" + std::to_string(request.batch));
     for (const auto& assignment : request.overrides) config.override_with(assignment);
     return config;
+}
+
+MethodSpeedRequest with_sizes_of(const Config& config, MethodSpeedRequest request) {
+    request.frames = static_cast<std::uint32_t>(config.get<std::int64_t>("frames"));
+    request.batch = static_cast<std::uint32_t>(config.get<std::int64_t>("batch"));
+    return request;
 }
 
 MotionSpec timed_spec(const MethodSpeedRequest& request) {
@@ -50,13 +73,14 @@ at::Device device_of(const Config& config) {
     return device;
 }
 
-/// Clips of smooth numbers, of every class in turn.
+/// Clips of smooth numbers, of every class in turn; on the device that draws, where there is one.
 kernels::ClipStore clips_of(const MethodSpeedRequest& request, const MotionSpec& spec,
-                            kernels::Device& device) {
+                            std::optional<kernels::Device>& device) {
     std::vector<std::uint32_t> labels;
     for (std::uint32_t i = 0; i < clips_made; ++i) labels.push_back(i % request.classes);
-    kernels::ClipStore clips(device, {request.persons, spec.nodes(), spec.numbers(),
-                                      std::vector<std::uint32_t>(clips_made, request.frames), labels});
+    const kernels::ClipTable table{request.persons, spec.nodes(), spec.numbers(),
+                                   std::vector<std::uint32_t>(clips_made, request.frames), labels};
+    auto clips = device ? kernels::ClipStore(*device, table) : kernels::ClipStore(table);
     for (std::uint32_t i = 0; i < clips_made; ++i) {
         std::vector<float> values(request.frames * clips.table().frame_values());
         for (std::size_t v = 0; v < values.size(); ++v)
@@ -69,48 +93,54 @@ kernels::ClipStore clips_of(const MethodSpeedRequest& request, const MotionSpec&
 }  // namespace
 
 struct MethodSpeed::Parts {
-    MethodSpeedRequest request;
     const Method& method;
     Config config;
+    MethodSpeedRequest request;
     MotionSpec spec;
     at::Device torch;
-    kernels::Device device;
+    std::optional<kernels::Device> opencl;
     kernels::ClipStore clips;
     Processes processes;
     std::unique_ptr<Learner> learner;
     std::unique_ptr<Maker> maker;
-    std::uint64_t steps = 0;
-    Seconds step, generation;
+    std::vector<Phase> works;  ///< a name and what is timed under it
+    std::vector<WorkTime> times;
+    std::uint64_t round = 0;  ///< steps follow one another, as their windows are drawn ahead
     std::string machine;
 
     explicit Parts(const MethodSpeedRequest& wanted)
-        : request(wanted),
-          method(method_named(wanted.method, "--method")),
+        : method(method_named(wanted.method, "--method")),
           config(config_of(wanted)),
-          spec(timed_spec(wanted)),
+          request(with_sizes_of(config, wanted)),
+          spec(timed_spec(request)),
           torch(device_of(config)),
-          clips(clips_of(wanted, spec, device)),
+          opencl(device_that_draws(generator_trainer_settings(config).opencl, nullptr)),
+          clips(clips_of(request, spec, opencl)),
           learner(method.learner(config, spec, {clips, torch, processes})),
           maker(method.maker(config, spec, learner->weights(), torch.str())),
-          machine(check_blas().line) {}
+          machine(check_blas().line) {
+        if (request.by_phase) works = learner->phases();
+        if (works.empty()) works.push_back({"step", [this](auto n) { learner->step(n, 1); }});
+        works.push_back({std::to_string(motions_timed) + " motions", [this](auto n) { generate(n); }});
+        for (const auto& work : works) times.push_back({work.name});
+    }
 
     /// The device may still be at work when a step returns: reading the sums waits for it.
-    void take_step() {
-        learner->step(steps++, 1);
+    void run(const Phase& work) {
+        work.run(round);
         learner->sums().to(at::kCPU);
     }
 
-    void generate() {
+    void generate(std::uint64_t n) {
         for (std::uint32_t i = 0; i * maker->batch() < motions_timed; ++i)
-            maker->make(1, static_cast<std::uint32_t>(steps % request.classes), i, request.frames);
+            maker->make(1, static_cast<std::uint32_t>(n % request.classes), i, request.frames);
     }
 };
 
 MethodSpeed::MethodSpeed(const MethodSpeedRequest& request) {
     set_threads(request.threads);
     parts_ = std::make_unique<Parts>(request);
-    parts_->take_step();  // what is made once is made
-    parts_->generate();
+    for (const auto& work : parts_->works) parts_->run(work);  // what is made once is made
 }
 
 MethodSpeed::~MethodSpeed() = default;
@@ -118,17 +148,19 @@ MethodSpeed::~MethodSpeed() = default;
 void MethodSpeed::run(int rounds) {
     auto& p = *parts_;
     for (int i = 0; i < rounds; ++i) {
-        time_into(p.step, [&] { p.take_step(); });
-        time_into(p.generation, [&] { p.generate(); });
+        ++p.round;
+        for (std::size_t w = 0; w < p.works.size(); ++w)
+            time_into(
+                p.times[w], [&] { p.run(p.works[w]); }, p.torch.is_cpu());
     }
 }
 
-const Seconds& MethodSpeed::step() const {
-    return parts_->step;
+const std::vector<WorkTime>& MethodSpeed::times() const {
+    return parts_->times;
 }
 
-const Seconds& MethodSpeed::generation() const {
-    return parts_->generation;
+const MethodSpeedRequest& MethodSpeed::request() const {
+    return parts_->request;
 }
 
 const std::string& MethodSpeed::machine() const {

@@ -10,4 +10,8 @@ std::vector<Array> Learner::ema_weights() {
     return {};
 }
 
+std::vector<Phase> Learner::phases() {
+    return {};
+}
+
 }  // namespace actformer::model

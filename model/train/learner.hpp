@@ -4,6 +4,7 @@
 #include <ATen/ATen.h>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct LearnerSetup {
     const kernels::ClipStore& clips;  ///< the split to train on
     at::Device device;
     const Processes& processes;
+};
+
+/// A part of a step that runs on its own, any number of times, for a benchmark to time.
+struct Phase {
+    std::string name;                               ///< as in "generator step"
+    std::function<void(std::uint64_t number)> run;  ///< its random numbers are those of `number`
 };
 
 class Learner {
@@ -58,6 +65,10 @@ class Learner {
     virtual std::vector<Array> weights() = 0;
     virtual bool keeps_ema() const { return false; }
     virtual std::vector<Array> ema_weights();
+
+    /// The parts of a step, one of each kind; none where a step is one piece. Running them moves the weights as no training would.
+    /// Good while the learner lives and step() is not called.
+    virtual std::vector<Phase> phases();
 };
 
 }  // namespace actformer::model

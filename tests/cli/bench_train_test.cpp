@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
 
 using namespace actformer::test;
 
@@ -33,6 +35,7 @@ TEST(BenchTrain, TellsWhereTheTimeGoes) {
     }
     EXPECT_TRUE(json["generator step"]["milliseconds"].contains("attention over persons"));
     EXPECT_FALSE(json["generator step"].contains("ratio")) << "no peer was asked";
+    EXPECT_TRUE(json["9,400 motions"]["milliseconds"].contains("attention over frames"));
 }
 
 TEST(BenchTrain, TimesAMethodWithSettingsOfItsOwn) {
@@ -46,8 +49,44 @@ TEST(BenchTrain, TimesAMethodWithSettingsOfItsOwn) {
         ASSERT_EQ(result.exit, 0) << method << ": " << result.output;
         const auto json = nlohmann::json::parse(result.output, nullptr, false);
         EXPECT_GT(json["step"]["seconds"].get<double>(), 0) << method;
+        EXPECT_GT(json["step, processors"]["seconds"].get<double>(), 0) << method;
+        EXPECT_TRUE(json["step"].contains("milliseconds")) << method << ": its layers";
+        EXPECT_FALSE(json.contains("discriminator step")) << method << ": the step is timed whole";
         EXPECT_GT(json["100 motions"]["seconds"].get<double>(), 0) << method;
     }
+}
+
+TEST(BenchTrain, ComparesWithWhatThePeerPrintsLast) {
+    if (!has_training()) GTEST_SKIP() << "this build has no libtorch";
+    const TempDir folder;
+    const auto bench = [&](const std::string& peer, const std::string& more) {
+        std::ofstream(folder.path() / "actformer_speed.py") << peer;
+        const auto path = folder.path().string();
+        return run_actformer(
+            "bench train --persons 1 --classes 3 --frames 16 --batch 8 --threads 1 --rounds 1 "
+            "--python /bin/sh --json --peers " +
+            path + " " + more + " 2>/dev/null");
+    };
+    const auto phases = bench("echo sizes $*\necho 1000 2000 3000\n", "");
+    ASSERT_EQ(phases.exit, 0) << phases.output;
+    auto json = nlohmann::json::parse(phases.output, nullptr, false);
+    EXPECT_EQ(json["discriminator step"]["pytorch"], 1000);
+    EXPECT_EQ(json["generator step"]["pytorch"], 2000);
+    EXPECT_EQ(json["9,400 motions"]["pytorch"], 94 * 3000);
+    EXPECT_GT(json["9,400 motions"]["ratio"].get<double>(), 1);
+
+    const auto path = (folder.path() / "actformer_speed.py").string();
+    const auto whole = bench(
+        "shift\ntest \"$*\" = '--persons 1 --classes 3 --frames 16 --batch 2 --rounds 1' && "
+        "echo 1000 2000 3000 4000\n",
+        "--method csgn --peer " + path + " width=8 d_width=2 batch=2");
+    ASSERT_EQ(whole.exit, 0) << whole.output;
+    json = nlohmann::json::parse(whole.output, nullptr, false);
+    EXPECT_EQ(json["batch"], 2) << "the setting's word counts, for the peer too";
+    EXPECT_EQ(json["step, processors"]["pytorch"], 2000);
+    EXPECT_EQ(json["100 motions"]["pytorch"], 3000);
+
+    EXPECT_NE(bench("echo 1 2\n", "").exit, 0) << "a number is missing";
 }
 
 TEST(BenchTrain, RefusesAFolderWithoutThePeer) {

@@ -69,4 +69,14 @@ std::vector<Array> GanLearner::ema_weights() {
     return arrays_of(gan_.ema(), "");
 }
 
+std::vector<Phase> GanLearner::phases() {
+    const auto windows = feed_.batch(0);
+    const auto labels = labels_of(windows, device_);
+    const auto real = values_of(windows, channels_, settings_.frames, nodes_, device_);
+    return {
+        {"discriminator step",
+         [=, this](std::uint64_t number) { gan_.step_discriminator(real, labels, number); }},
+        {"generator step", [=, this](std::uint64_t number) { gan_.step_generator(real, labels, number); }}};
+}
+
 }  // namespace actformer::model

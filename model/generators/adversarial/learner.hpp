@@ -29,6 +29,9 @@ class GanLearner : public Learner {
     bool keeps_ema() const override { return settings_.average > 0; }
     std::vector<Array> ema_weights() override;
 
+    /// A discriminator step and a generator step, all on the same windows.
+    std::vector<Phase> phases() override;
+
   private:
     GanSettings settings_;
     std::int64_t channels_, nodes_;  ///< of motions
