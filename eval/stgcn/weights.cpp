@@ -8,6 +8,7 @@
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
 #include "eval/weights_reader.hpp"
+#include "eval/weights_writer.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -76,14 +77,10 @@ void write_weights(const std::filesystem::path& path, const Weights& weights) {
     hdf5::Writer file(path);
     for (const auto& [name, shape, role, fan_in] : stgcn_tensors(weights))
         file.write<float>(name, hdf5::Shape(shape.begin(), shape.end()), weights.at(name));
-    file.attribute("kind", std::string("stgcn"));
-    file.attribute("representation", weights.representation.name());
-    if (!weights.class_names.empty()) file.attribute("class_names", weights.class_names);
-    file.attribute("channels", std::int64_t{weights.channels});
-    file.attribute("classes", std::int64_t{weights.classes});
-    file.attribute("parents",
-                   std::vector<std::int64_t>(weights.graph.parents.begin(), weights.graph.parents.end()));
-    file.attribute("center", std::int64_t{weights.graph.center});
+    write_recogniser_attributes(file, "stgcn",
+                                {weights.channels, weights.classes, weights.graph.parents,
+                                 weights.representation, weights.class_names},
+                                weights.graph.center);
     file.finish();
 }
 

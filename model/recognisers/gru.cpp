@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/files/file.hpp"
+#include "eval/weights_writer.hpp"
 #include "model/nn/weights_file.hpp"
 
 namespace actformer::model {
@@ -36,12 +37,9 @@ void save_gru_weights(const std::filesystem::path& path, const GruSettings& sett
                       const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes,
                       const std::vector<std::string>& class_names) {
     auto file = weights_writer(arrays);
-    file.attribute("kind", std::string("gru"));
-    file.attribute("representation", settings.representation.name());
-    if (!class_names.empty()) file.attribute("class_names", class_names);
-    file.attribute("channels", std::int64_t{settings.channels});
-    file.attribute("classes", std::int64_t{settings.classes});
-    file.attribute("parents", std::vector<std::int64_t>(settings.parents.begin(), settings.parents.end()));
+    eval::write_recogniser_attributes(
+        file, "gru",
+        {settings.channels, settings.classes, settings.parents, settings.representation, class_names});
     for (const auto& [name, text] : notes) file.attribute(name, text);
     write_whole(path, file.checked_image());
 }

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "eval/stgcn/network.hpp"
+#include "eval/weights_writer.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/subjects.hpp"
 #include "model/nn/torch_arrays.hpp"
@@ -125,13 +126,10 @@ ImportedRecogniser import_recogniser(const ImportRecogniserRequest& request) {
     motions.parents = motions.subjects.representation.node_parents(motions.subjects.topology);
     const auto [network, weights] = recognised(arrays, motions);
     auto file = weights_writer(weights);
-    file.attribute("kind", network.kind);
-    file.attribute("representation", motions.subjects.representation.name());
-    file.attribute("class_names", motions.subjects.classes);
-    file.attribute("channels", std::int64_t{motions.channels()});
-    file.attribute("classes", std::int64_t{motions.classes()});
-    file.attribute("parents", std::vector<std::int64_t>(network.parents.begin(), network.parents.end()));
-    if (network.centre) file.attribute("center", std::int64_t{*network.centre});
+    eval::write_recogniser_attributes(file, network.kind,
+                                      {motions.channels(), motions.classes(), network.parents,
+                                       motions.subjects.representation, motions.subjects.classes},
+                                      network.centre);
     file.attribute("program", std::string("actformer " ACTFORMER_VERSION));
     file.attribute("imported", request.file.filename().string());
     file.attribute("imported_checksum", checksum_file(request.file));
