@@ -1,7 +1,7 @@
 // The metrics of the tables: one list for scoring, reports and help texts.
 //
-// To add a metric: write its computation in a file of its own here, give it a line in metric.cpp, and fetch its value in
-// value_of() (eval/scoring/score_report.cpp).
+// To add a metric: write its computation in a file of its own here, give it a line in metric.cpp, and in
+// eval/scoring/metric_value.cpp one that fetches its value.
 #pragma once
 
 #include <string_view>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "base/error.hpp"
 #include "eval/metrics/diversity.hpp"
 
 namespace actformer::eval {
@@ -16,22 +15,6 @@ using Json = nlohmann::ordered_json;
 template <typename T>
 Json number(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
-}
-
-/// What is measured of motions themselves.
-struct MotionMetric {
-    std::string_view name;
-    std::optional<double> MotionScore::*value;
-};
-
-constexpr MotionMetric motion_metrics[] = {{"limb_acceleration", &MotionScore::limb_acceleration},
-                                           {"root_acceleration", &MotionScore::root_acceleration},
-                                           {"foot_sliding", &MotionScore::foot_sliding},
-                                           {"root_distance", &MotionScore::root_distance}};
-
-const MotionMetric* motion_metric(std::string_view name) {
-    const auto* found = std::ranges::find(motion_metrics, name, &MotionMetric::name);
-    return found == std::end(motion_metrics) ? nullptr : found;
 }
 
 std::string listed(std::vector<std::string> items) {
@@ -142,9 +125,10 @@ Json class_json(const ScoreReport& report, std::size_t c) {
              {"fida", number(mean_of(report, fida))},
              {"floor", report.floor ? number(floor(report.floor->score)) : Json(nullptr)}};
     if (report.repeats[0].motion_by_class.empty()) return out;
-    for (const auto& metric : motion_metrics)
-        out[std::string(metric.name)] =
-            number(mean_of(report, [&](const Score& s) { return s.motion_by_class[c].*(metric.value); }));
+    for (const auto& value : metric_values())
+        if (value.of_motion)
+            out[std::string(value.name)] = number(
+                mean_of(report, [&](const Score& s) { return s.motion_by_class[c].*(value.of_motion); }));
     return out;
 }
 
@@ -174,26 +158,6 @@ Json confusion_json(const ScoreReport& report) {
 }
 
 }  // namespace
-
-std::optional<double> value_of(const Score& score, const Metric& metric) {
-    const auto mean = [](const std::optional<Distances>& d) { return d ? d->mean : std::nullopt; };
-    const auto whole = [](const std::optional<Distances>& d) {
-        return d ? std::optional(d->whole) : std::nullopt;
-    };
-    if (metric.name == "accuracy") return score.accuracy;
-    if (metric.name == "fid_mean") return mean(score.fid);
-    if (metric.name == "fid_whole") return whole(score.fid);
-    if (metric.name == "fida_mean") return mean(score.fid_groups);
-    if (metric.name == "fida_whole") return whole(score.fid_groups);
-    if (metric.name == "fid_mean_infinity") return score.fid_mean_infinity;
-    if (metric.name == "fid_whole_infinity") return score.fid_whole_infinity;
-    if (metric.name == "kid_mean") return score.kid_mean;
-    if (metric.name == "kid_whole") return score.kid_whole;
-    if (metric.name == "diversity") return score.diversity;
-    if (metric.name == "multimodality") return score.multimodality;
-    if (const auto* own = motion_metric(metric.name)) return score.motion.*(own->value);
-    throw Error("metric '{}' has no value", metric.name);
-}
 
 ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes, std::size_t repeats,
                           const std::function<Observed(std::size_t)>& generated,
@@ -251,9 +215,9 @@ nlohmann::ordered_json to_json(const ScoreReport& report) {
                    {"diversity", number(report.real_diversity)},
                    {"multimodality", number(report.real_multimodality)}};
     if (report.real_motion)
-        for (const auto& metric : motion_metrics)
-            if (const auto value = (*report.real_motion).*(metric.value))
-                out["real"][std::string(metric.name)] = *value;
+        for (const auto& value : metric_values())
+            if (const auto real = value.of_motion ? (*report.real_motion).*(value.of_motion) : std::nullopt)
+                out["real"][std::string(value.name)] = *real;
     out["per_class"] = Json::array();
     for (std::size_t c = 0; c < report.classes.size(); ++c) out["per_class"].push_back(class_json(report, c));
     if (report.repeats[0].confusion) out["confusion"] = confusion_json(report);

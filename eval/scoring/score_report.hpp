@@ -5,8 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "eval/metrics/interval.hpp"
-#include "eval/metrics/metric.hpp"
-#include "eval/scoring/scorer.hpp"
+#include "eval/scoring/metric_value.hpp"
 
 namespace actformer::eval {
 
@@ -29,9 +28,6 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
 
 /// A class with fewer samples than this on a side is warned of.
 constexpr std::size_t thin_class = 50;
-
-/// A metric in one repeat; none where it is not measured.
-std::optional<double> value_of(const Score& score, const Metric& metric);
 
 /// Of the repeats that have it; none where none has.
 std::optional<Interval> summary(const ScoreReport& report, const Metric& metric);
