@@ -34,7 +34,7 @@ struct CompareOptions {
 
 /// What both sides have of a metric, as tables print it.
 struct Compared {
-    reports::Metric metric;
+    const eval::Metric* metric = nullptr;
     eval::Interval a, b;
     eval::Interval difference;     ///< of B less A, seed by seed
     std::optional<double> real;    ///< of real motions
@@ -78,9 +78,9 @@ reports::Sweep comparison(const CompareOptions& options) {
     return sweep;
 }
 
-std::vector<double> repeats_of(const Json& scores, const reports::Metric& metric) {
+std::vector<double> repeats_of(const Json& scores, const eval::Metric& metric) {
     std::vector<double> values;
-    for (const auto& value : loose::list(loose::member(scores, metric.name.c_str()), "repeats"))
+    for (const auto& value : loose::list(loose::member(scores, std::string(metric.name).c_str()), "repeats"))
         if (value.is_number()) values.push_back(metric.scale * value.get<double>());
     return values;
 }
@@ -96,22 +96,23 @@ eval::Interval interval_between(const std::vector<double>& a, const std::vector<
 std::vector<double> distances(const std::vector<double>& values, const Compared& of) {
     std::vector<double> out;
     for (const double value : values)
-        out.push_back(reports::distance_from_best(of.metric.better, value, of.real.value_or(0)));
+        out.push_back(reports::distance_from_best(of.metric->direction, value, of.real.value_or(0)));
     return out;
 }
 
 /// None where one side was not scored with the metric, or with another number of repeats.
-std::optional<Compared> compared(const Json& a, const Json& b, const std::string& name) {
+std::optional<Compared> compared(const Json& a, const Json& b, const eval::Metric& metric) {
     Compared out;
-    out.metric = reports::scored_metric(name);
-    const auto of_a = repeats_of(a, out.metric), of_b = repeats_of(b, out.metric);
+    out.metric = &metric;
+    const auto of_a = repeats_of(a, metric), of_b = repeats_of(b, metric);
     if (of_a.empty() || of_a.size() != of_b.size()) return {};
     out.a = eval::interval(of_a);
     out.b = eval::interval(of_b);
     out.difference = interval_between(of_a, of_b);
-    if (const auto& real = loose::member(loose::member(a, "real"), name.c_str()); real.is_number())
-        out.real = out.metric.scale * real.get<double>();
-    if (out.metric.better == eval::Direction::nearest_real && !out.real) return out;
+    if (const auto& real = loose::member(loose::member(a, "real"), std::string(metric.name).c_str());
+        real.is_number())
+        out.real = metric.scale * real.get<double>();
+    if (metric.direction == eval::Direction::nearest_real && !out.real) return out;
     const auto further = interval_between(distances(of_a, out), distances(of_b, out));
     if (further.half_width && std::abs(further.mean) > *further.half_width) out.b_better = further.mean < 0;
     return out;
@@ -120,7 +121,7 @@ std::optional<Compared> compared(const Json& a, const Json& b, const std::string
 std::vector<Compared> all_compared(const Json& a, const Json& b) {
     std::vector<Compared> out;
     for (const auto& metric : eval::metrics())
-        if (auto one = compared(a, b, std::string(metric.name))) out.push_back(std::move(*one));
+        if (auto one = compared(a, b, metric)) out.push_back(std::move(*one));
     return out;
 }
 
@@ -128,12 +129,6 @@ std::string text_of(const eval::Interval& interval, bool with_sign = false) {
     const auto mean = with_sign && interval.mean > 0 ? "+" + reports::figure_text(interval.mean)
                                                      : reports::figure_text(interval.mean);
     return interval.half_width ? mean + " ± " + reports::figure_text(*interval.half_width) : mean;
-}
-
-/// "accuracy %"
-std::string heading(const reports::Metric& metric) {
-    const auto* known = eval::find_metric(metric.name);
-    return known && !known->unit.empty() ? fmt::format("{} {}", metric.heading, known->unit) : metric.heading;
 }
 
 const char* verdict(const Compared& one) {
@@ -146,8 +141,9 @@ void print(const std::vector<Compared>& all, const reports::Sweep& sweep) {
     for (const auto& row : sweep.rows) say("{}\n", row.name);
     say("\n{:<18} {:>18} {:>18} {:>18} {:>9}\n", "", "A", "B", "B - A", "real");
     for (const auto& one : all)
-        say("{:<18} {:>18} {:>18} {:>18} {:>9}   {}\n", heading(one.metric), text_of(one.a), text_of(one.b),
-            text_of(one.difference, true), one.real ? reports::figure_text(*one.real) : "", verdict(one));
+        say("{:<18} {:>18} {:>18} {:>18} {:>9}   {}\n", eval::heading_with_unit(*one.metric), text_of(one.a),
+            text_of(one.b), text_of(one.difference, true), one.real ? reports::figure_text(*one.real) : "",
+            verdict(one));
     say("\nintervals of 95 %, of differences seed by seed\n");
 }
 
@@ -160,7 +156,7 @@ Json to_json(const eval::Interval& interval) {
 Json to_json(const std::vector<Compared>& all, const fs::path& page) {
     Json metrics = Json::object();
     for (const auto& one : all) {
-        auto& entry = metrics[one.metric.name];
+        auto& entry = metrics[std::string(one.metric->name)];
         entry = {{"a", to_json(one.a)}, {"b", to_json(one.b)}, {"difference", to_json(one.difference)}};
         if (one.real) entry["real"] = *one.real;
         entry["better"] = one.b_better ? Json(*one.b_better ? "b" : "a") : Json();
@@ -171,7 +167,7 @@ Json to_json(const std::vector<Compared>& all, const fs::path& page) {
 /// The table that stands first in the report: both sides, with the metrics that they have.
 void add_table(reports::Sweep& sweep, const std::vector<Compared>& all, const std::string& dataset) {
     Json names = Json::array(), rows = Json::object();
-    for (const auto& one : all) names.push_back(one.metric.name);
+    for (const auto& one : all) names.push_back(one.metric->name);
     for (auto& row : sweep.rows) {
         rows[row.name] = Json::object();
         row.fills = {"comparison/" + row.name + "/" + dataset};

@@ -1,5 +1,7 @@
 #include "eval/metrics/metric.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace actformer::eval {
@@ -28,6 +30,11 @@ const std::vector<Metric>& metrics() {
 const Metric* find_metric(std::string_view name) {
     const auto found = std::ranges::find(metrics(), name, &Metric::name);
     return found == metrics().end() ? nullptr : &*found;
+}
+
+std::string heading_with_unit(const Metric& metric) {
+    return metric.unit.empty() ? std::string(metric.heading)
+                               : fmt::format("{} {}", metric.heading, metric.unit);
 }
 
 std::string_view describe(Direction direction) {

@@ -4,6 +4,7 @@
 // eval/scoring/metric_value.cpp one that fetches its value.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +30,9 @@ const std::vector<Metric>& metrics();
 
 /// Null where there is none of that name.
 const Metric* find_metric(std::string_view name);
+
+/// "accuracy %", "FIDm"
+std::string heading_with_unit(const Metric& metric);
 
 /// "lower is better", as a table says it.
 std::string_view describe(Direction direction);

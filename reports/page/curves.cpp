@@ -5,8 +5,7 @@
 #include <map>
 
 #include "base/text/json.hpp"
-#include "eval/scoring/score_report.hpp"
-#include "reports/tables/metric.hpp"
+#include "eval/metrics/metric.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -34,10 +33,8 @@ std::optional<ChartOf> chart_of(const std::string& key) {
     if (const auto series = before(key, "loss")) return ChartOf{"loss", "", *series};
     if (const auto series = before(key, "score")) return ChartOf{"discriminator\u2019s score", "", *series};
     for (const auto& known : eval::metrics())
-        if (const auto series = before(key, std::string(known.name))) {
-            const auto metric = scored_metric(std::string(known.name));
-            return ChartOf{metric.heading, metric.scale == 100 ? "%" : "", *series, metric.scale, true};
-        }
+        if (const auto series = before(key, std::string(known.name)))
+            return ChartOf{std::string(known.heading), std::string(known.unit), *series, known.scale, true};
     return {};
 }
 

@@ -62,36 +62,16 @@ Classes classes_of(const Json& scored) {
     return out;
 }
 
-/// A metric as its numbers are shown: those of a share are in per cent.
-struct Shown {
-    std::string heading, unit;
-    double scale = 1;
-    eval::Direction better = eval::Direction::lower;
-};
-
-Shown shown(const Metric& metric) {
-    return {metric.heading, metric.scale == 100 ? "%" : "", metric.scale, metric.better};
-}
-
-/// None for what scoring does not know.
-std::optional<Shown> shown(const std::string& metric) {
-    try {
-        return shown(scored_metric(metric));
-    } catch (const Error&) {
-        return {};
-    }
-}
-
 Json scaled(const Json& value, double scale) {
     return value.is_number() ? Json(scale * value.get<double>()) : Json();
 }
 
-/// What `score` measured, with what real motions come to: [{"heading", "unit", "value", "real", "floor"}]
+/// What `score` measured of the metrics known, with what real motions come to: [{"heading", "unit", "value", "real", "floor"}]
 Json scores_of(const Json& scored) {
     Json out = Json::array();
     for (const auto& [name, measured] : scored.items()) {
         const auto& mean = loose::member(measured, "mean");
-        const auto how = shown(name);
+        const auto* how = eval::find_metric(name);
         if (!mean.is_number() || !how) continue;
         out.push_back(
             {{"heading", how->heading},
@@ -116,11 +96,11 @@ constexpr ClassMetric class_metrics[] = {{"accuracy", "accuracy", "accuracy", nu
 Json class_columns() {
     Json out = Json::array();
     for (const auto& one : class_metrics) {
-        const auto how = shown(scored_metric(one.metric));
+        const auto& how = scored_metric(one.metric);
         out.push_back({{"key", one.key},
                        {"heading", one.heading},
                        {"unit", how.unit},
-                       {"better", name_of(how.better)},
+                       {"better", name_of(how.direction)},
                        {"floor", one.floor ? Json(one.floor) : Json()}});
     }
     return out;

@@ -73,7 +73,7 @@ std::string latex_text(const std::string& text) {
 }
 
 /// "FIDa_m" -> "FIDa$_m$"
-std::string latex_heading(const Metric& metric) {
+std::string latex_heading(const ColumnMetric& metric) {
     const auto& text = metric.heading;
     const auto low = text.find('_');
     const auto* const arrow = metric.better == eval::Direction::lower    ? " $\\downarrow$"

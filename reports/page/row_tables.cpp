@@ -33,18 +33,16 @@ bool has(const MeasuredRow& row, std::string_view metric) {
     });
 }
 
-std::vector<Metric> metrics_of(const Rows& rows) {
-    std::vector<Metric> out;
+std::vector<ColumnMetric> metrics_of(const Rows& rows) {
+    std::vector<ColumnMetric> out;
     for (const auto& metric : eval::metrics())
-        if (std::ranges::any_of(rows, [&](const auto* row) { return has(*row, metric.name); })) {
-            out.push_back(scored_metric(std::string(metric.name)));
-            if (!metric.unit.empty()) out.back().heading += fmt::format(" {}", metric.unit);
-        }
+        if (std::ranges::any_of(rows, [&](const auto* row) { return has(*row, metric.name); }))
+            out.emplace_back(metric).heading = eval::heading_with_unit(metric);
     return out;
 }
 
 /// What the scores of real motions, or of real ones against others, say; the mean over all runs that tell.
-std::optional<double> of_real_motions(const Rows& rows, const Metric& metric) {
+std::optional<double> of_real_motions(const Rows& rows, const ColumnMetric& metric) {
     double sum = 0, count = 0;
     for (const auto* row : rows)
         for (const auto& run : row->runs)

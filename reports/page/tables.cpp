@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<double> repeats_of(const MeasuredRun& run, const Metric& metric) {
+std::vector<double> repeats_of(const MeasuredRun& run, const ColumnMetric& metric) {
     std::vector<double> values;
     for (const auto& value : loose::list(loose::member(run.scored, metric.name.c_str()), "repeats"))
         if (value.is_number()) values.push_back(metric.scale * value.get<double>());
@@ -22,7 +22,7 @@ std::vector<double> repeats_of(const MeasuredRun& run, const Metric& metric) {
 }
 
 /// What a row has measured of a metric.
-Figures figures_of(const MeasuredRow& row, const Metric& metric) {
+Figures figures_of(const MeasuredRow& row, const ColumnMetric& metric) {
     Figures out;
     std::vector<double> seeds, repeats;
     for (const auto& run : row.runs)
@@ -38,7 +38,7 @@ Figures figures_of(const MeasuredRow& row, const Metric& metric) {
 }
 
 /// What real motions come to, the mean over all runs whose scores tell.
-std::optional<double> real_value(const MeasuredRow& row, const Metric& metric) {
+std::optional<double> real_value(const MeasuredRow& row, const ColumnMetric& metric) {
     double sum = 0, count = 0;
     for (const auto& run : row.runs)
         if (const auto& value = loose::member(loose::member(run.scored, "real"), metric.name.c_str());

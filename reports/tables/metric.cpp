@@ -1,6 +1,7 @@
 #include "reports/tables/metric.hpp"
 
 #include <cmath>
+#include <string>
 
 #include "base/error.hpp"
 
@@ -17,7 +18,7 @@ const char* name_of(eval::Direction better) {
     }
 }
 
-Metric scored_metric(const std::string& name) {
+const eval::Metric& scored_metric(std::string_view name) {
     const auto* known = eval::find_metric(name);
     if (!known) {
         std::string all;
@@ -25,7 +26,7 @@ Metric scored_metric(const std::string& name) {
             all += (all.empty() ? "" : ", ") + std::string(metric.name);
         throw Error("there is no metric '{}'; there are {}", name, all);
     }
-    return {name, std::string(known->heading), known->scale, known->direction};
+    return *known;
 }
 
 double distance_from_best(eval::Direction better, double value, double real) {

@@ -11,7 +11,7 @@ namespace {
 bool same_columns(const PaperTable& a, const PaperTable& b) {
     return std::ranges::equal(a.columns, b.columns, [](const PaperColumns& one, const PaperColumns& other) {
         return one.dataset == other.dataset &&
-               std::ranges::equal(one.metrics, other.metrics, {}, &Metric::name, &Metric::name);
+               std::ranges::equal(one.metrics, other.metrics, {}, &ColumnMetric::name, &ColumnMetric::name);
     });
 }
 

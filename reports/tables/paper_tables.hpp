@@ -39,10 +39,21 @@ struct PaperFigure {
     bool operator==(const PaperFigure&) const = default;
 };
 
+/// A metric as a table prints it: as scoring does, or with a heading, scale and direction of the table's own.
+struct ColumnMetric {
+    explicit ColumnMetric(const eval::Metric& scored)
+        : name(scored.name), heading(scored.heading), scale(scored.scale), better(scored.direction) {}
+
+    std::string name;     ///< in the scores' JSON: "fid_mean"
+    std::string heading;  ///< "FIDm"
+    double scale;         ///< printed = scale * measured: 100 for shares in per cent
+    eval::Direction better;
+};
+
 /// Columns of one dataset, as in "NTU-1P": one a metric.
 struct PaperColumns {
     std::string dataset;
-    std::vector<Metric> metrics;
+    std::vector<ColumnMetric> metrics;
 };
 
 struct PaperRow {

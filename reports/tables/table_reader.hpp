@@ -93,13 +93,13 @@ class TableReader {
         return root_[key] ? place_.as<std::string>(root_[key], key, "a text") : otherwise;
     }
 
-    Metric metric(const Node& where) const {
-        Metric out;
-        try {
-            out = scored_metric(place_.as<std::string>(where, "metrics", "names of metrics"));
-        } catch (const Error& e) {
-            place_.fail(where, e.what());
-        }
+    const eval::Metric& scored(const Node& where) const try {
+        return scored_metric(place_.as<std::string>(where, "metrics", "names of metrics"));
+    } catch (const Error& e) {
+        place_.fail(where, e.what());
+    }
+    ColumnMetric metric(const Node& where) const {
+        ColumnMetric out(scored(where));
         const auto metrics = root_["metrics"];
         if (!metrics || !metrics[out.name]) return out;
         const auto own = metrics[out.name];

@@ -35,6 +35,11 @@ TEST(Metrics, HaveNamesOfTheirOwnAndValues) {
     for (const auto& metric : metrics()) EXPECT_FALSE(value_of(nothing, metric)) << metric.name;
 }
 
+TEST(Metrics, HaveTheirUnitsInHeadings) {
+    EXPECT_EQ(heading_with_unit(*find_metric("accuracy")), "accuracy %");
+    EXPECT_EQ(heading_with_unit(*find_metric("fid_mean")), "FIDm");
+}
+
 TEST(Metrics, SayWhichWayIsBetter) {
     EXPECT_EQ(find_metric("accuracy")->direction, Direction::higher);
     EXPECT_EQ(find_metric("accuracy")->scale, 100) << "shares are printed in per cent";
