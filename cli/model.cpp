@@ -10,6 +10,7 @@
 #include "cli/format.hpp"
 #include "cli/say.hpp"
 #include "cli/shipped_option.hpp"
+#include "eval/recogniser_kind.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "model/generators/method.hpp"
 #include "model/recognisers/recogniser_settings.hpp"
@@ -60,15 +61,14 @@ std::pair<model::Config, model::MotionSpec> read(model::Config config, const Mod
 }
 
 std::vector<model::NetworkSummary> networks_of(const ModelOptions& options) {
-    const auto named = model::model_named_in(options.config);
-    if (named != "recogniser" && named != "stgcn" && named != "gru") {
+    const auto kind = eval::recogniser_kind_named(model::model_named_in(options.config));
+    if (!kind) {
         const auto [config, spec] = read(model::read_generator_config(options.config), options);
         return model::method_named(config.model(), options.config).networks(config, spec);
     }
-    const auto kind = model::recogniser_kind_in(options.config);
-    const auto [config, spec] = read(model::recogniser_config(kind), options);
+    const auto [config, spec] = read(model::recogniser_config(*kind), options);
     const auto settings = model::recogniser_settings(config);
-    if (kind == model::RecogniserKind::gru)
+    if (*kind == eval::RecogniserKind::gru)
         return {{"recogniser", model::gru_summary(model::gru_for(settings, spec.representation, spec.topology,
                                                                  spec.persons, spec.classes, spec.where),
                                                   settings.frames)}};

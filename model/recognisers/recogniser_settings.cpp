@@ -125,11 +125,15 @@ Config recogniser_config(RecogniserKind kind) {
 }
 
 RecogniserKind recogniser_kind_in(const std::filesystem::path& file) {
-    return model_named_in(file) == "gru" ? RecogniserKind::gru : RecogniserKind::stgcn;
+    const auto named = model_named_in(file);
+    if (named.empty()) return RecogniserKind::stgcn;
+    if (const auto kind = eval::recogniser_kind_named(named)) return *kind;
+    throw Error("{}: a configuration for model '{}', and a recogniser's is 'recogniser' or 'gru'",
+                file.string(), named);
 }
 
 RecogniserSettings recogniser_settings(const Config& config) {
-    return (config.model() == "gru" ? gru_table() : stgcn_table()).read(config);
+    return (recogniser_kind_in(config) == RecogniserKind::gru ? gru_table() : stgcn_table()).read(config);
 }
 
 StgcnSettings network_for(const RecogniserSettings& settings, ingest::Representation representation,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "eval/recogniser_kind.hpp"
 #include "ingest/dataset/common_joints.hpp"
 #include "model/recognisers/gru.hpp"
 #include "model/recognisers/stgcn.hpp"
@@ -13,7 +14,7 @@
 
 namespace actformer::model {
 
-enum class RecogniserKind { stgcn, gru };
+using eval::RecogniserKind;
 
 /// Of the public ST-GCN and its training. The GRU classifier, whose width is fixed, moves by Adam and has no use for width, dropout,
 /// momentum and nesterov.
@@ -42,7 +43,8 @@ struct RecogniserSettings : TrainerSettings, AugmentationSettings {
 /// Every key at its preset, of an ST-GCN (`model: recogniser`) or a GRU classifier (`model: gru`).
 Config recogniser_config(RecogniserKind kind = RecogniserKind::stgcn);
 
-/// A configuration file's kind, by its line `model:`.
+/// A configuration file's kind, by its line `model:`; stgcn where there is no such line or file, of which Config::load complains. Throws
+/// Error for a line that names no recogniser.
 RecogniserKind recogniser_kind_in(const std::filesystem::path& file);
 
 RecogniserSettings recogniser_settings(const Config& config);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/files/lock.hpp"
+#include "eval/recogniser_kind.hpp"
 #include "reports/page/curves.hpp"
 #include "reports/sweep/configuration.hpp"
 
@@ -39,7 +40,7 @@ std::optional<MeasuredRow> training_row(const fs::path& folder) {
     if (!goes_on) tell_whether_done(folder, row);
     MeasuredRun run;
     run.status = row.status;
-    (model == "recogniser" || model == "gru" ? run.recogniser : run.run) = whole;
+    (eval::recogniser_kind_named(model) ? run.recogniser : run.run) = whole;
     row.runs.push_back(std::move(run));
     return row;
 }

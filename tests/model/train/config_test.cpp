@@ -108,6 +108,25 @@ TEST_F(Configs, WritesWhatItReads) {
     EXPECT_TRUE(config.differences(again).empty());
 }
 
+TEST_F(Configs, NameTheKindOfRecogniser) {
+    const auto kind_of = [&](const std::string& text) {
+        write_file(dir / "kind.yaml", text);
+        return recogniser_kind_in(dir / "kind.yaml");
+    };
+    EXPECT_EQ(kind_of("model: recogniser\n"), RecogniserKind::stgcn);
+    EXPECT_EQ(kind_of("model: stgcn\n"), RecogniserKind::stgcn);
+    EXPECT_EQ(kind_of("model: gru\n"), RecogniserKind::gru);
+    EXPECT_EQ(kind_of("batch: 1\n"), RecogniserKind::stgcn) << "loading says that the line is missing";
+    try {
+        kind_of("model: actformer\n");
+        ADD_FAILURE() << "a generator's configuration was taken";
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("kind.yaml: a configuration for model 'actformer'"),
+                  std::string::npos)
+            << e.what();
+    }
+}
+
 TEST(ShippedConfigs, AllLoad) {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(source("model/configs"))) {
