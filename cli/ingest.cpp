@@ -10,6 +10,7 @@
 #include "cli/say.hpp"
 #include "ingest/formats/formats.hpp"
 #include "ingest/pipeline/pipeline.hpp"
+#include "ingest/pipeline/record.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -54,17 +55,8 @@ void print_json(const ingest::IngestSummary& s, const IngestOptions& options) {
                                 {"made_again", s.made_again}, {"text_bytes", s.text_bytes},
                                 {"left_out", s.left_out},     {"remarks", s.remarks},
                                 {"seconds", s.seconds.wall}};
-    json["doubts"] = nlohmann::ordered_json::array();
-    for (const auto& d : s.doubts)
-        json["doubts"].push_back({{"what", d.what}, {"clips", d.clips}, {"first", d.first}});
-    json["datasets"] = nlohmann::ordered_json::array();
-    for (const auto& d : s.datasets)
-        json["datasets"].push_back({{"folder", d.folder},
-                                    {"clips", d.clips},
-                                    {"classes", d.classes},
-                                    {"frames", d.frames},
-                                    {"shards", d.shards},
-                                    {"bytes", d.bytes}});
+    json["doubts"] = ingest::doubts_json(s);
+    json["datasets"] = ingest::datasets_json(s);
     fmt::print("{}\n", json.dump(2));
 }
 

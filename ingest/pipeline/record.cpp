@@ -99,6 +99,25 @@ std::string rejected_csv(const std::vector<Tranche>& tranches) {
     return csv;
 }
 
+nlohmann::ordered_json doubts_json(const IngestSummary& summary) {
+    auto all = nlohmann::ordered_json::array();
+    for (const auto& d : summary.doubts)
+        all.push_back({{"what", d.what}, {"clips", d.clips}, {"first", d.first}});
+    return all;
+}
+
+nlohmann::ordered_json datasets_json(const IngestSummary& summary) {
+    auto all = nlohmann::ordered_json::array();
+    for (const auto& d : summary.datasets)
+        all.push_back({{"folder", d.folder},
+                       {"clips", d.clips},
+                       {"frames", d.frames},
+                       {"bytes", d.bytes},
+                       {"shards", d.shards},
+                       {"classes", d.classes}});
+    return all;
+}
+
 std::string record_text(const Origin& origin, const fs::path& out, const IngestSummary& summary) {
     nlohmann::ordered_json json{{"program", "actformer " ACTFORMER_VERSION},
                                 {"settings", origin.settings},
@@ -109,18 +128,11 @@ std::string record_text(const Origin& origin, const fs::path& out, const IngestS
                                 {"left_out", summary.left_out},
                                 {"first_rejections", summary.first_rejections},
                                 {"remarks", summary.remarks}};
-    json["doubts"] = nlohmann::ordered_json::array();
-    for (const auto& d : summary.doubts)
-        json["doubts"].push_back({{"what", d.what}, {"clips", d.clips}, {"first", d.first}});
-    json["datasets"] = nlohmann::ordered_json::array();
-    for (const auto& d : summary.datasets)
-        json["datasets"].push_back(
-            {{"folder", fs::path(d.folder).lexically_relative(out.lexically_normal()).string()},
-             {"clips", d.clips},
-             {"frames", d.frames},
-             {"bytes", d.bytes},
-             {"shards", d.shards},
-             {"classes", d.classes}});
+    json["doubts"] = doubts_json(summary);
+    json["datasets"] = datasets_json(summary);
+    for (auto& d : json["datasets"])
+        d["folder"] =
+            fs::path(d["folder"].get<std::string>()).lexically_relative(out.lexically_normal()).string();
     return with_checksum(std::move(json)).dump(1) + "\n";
 }
 

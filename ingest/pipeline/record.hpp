@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,13 @@ std::vector<IngestSummary::Doubt> doubts_of(const std::vector<Tranche>& tranches
 /// A line a file left out: file, kind, reason.
 std::string rejected_csv(const std::vector<Tranche>& tranches);
 
+/// [{"what", "clips", "first"}]
+nlohmann::ordered_json doubts_json(const IngestSummary& summary);
+
+/// [{"folder", "clips", "frames", "bytes", "shards", "classes"}]
+nlohmann::ordered_json datasets_json(const IngestSummary& summary);
+
+/// What ingest.json says; folders of datasets relative to `out`.
 std::string record_text(const Origin& origin, const std::filesystem::path& out, const IngestSummary& summary);
 
 /// True, and the summary restored, where OUT/ingest.json is there and was made by `request`.
