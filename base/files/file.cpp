@@ -17,6 +17,17 @@ namespace actformer {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// "128 MiB", rounded up; "1024 bytes" of less than one.
+std::string in_units(std::uint64_t bytes) {
+    constexpr std::uint64_t mebibyte = 1 << 20;
+    return bytes < mebibyte ? fmt::format("{} bytes", bytes)
+                            : fmt::format("{} MiB", bytes / mebibyte + (bytes % mebibyte != 0));
+}
+
+}  // namespace
+
 std::string_view read_text(const fs::path& path, std::vector<char>& scratch, std::uint64_t limit) {
     refuse_irregular(path);
     const Descriptor file(path, O_RDONLY);
@@ -25,8 +36,8 @@ std::string_view read_text(const fs::path& path, std::vector<char>& scratch, std
         throw Error("{}: cannot be read: {}", path.string(), reason());
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (size > limit)
-        throw Error("{}: {} MiB of text, more than the {} MiB that one clip may have", path.string(),
-                    size >> 20, limit >> 20);
+        throw Error("{}: {}, and a file of this kind has at most {}; look whether it is the right file",
+                    path.string(), in_units(size), in_units(limit));
     if (scratch.size() < size + text_padding) scratch.resize(size + text_padding);
     const auto got = read_fully(file.get(), scratch.data(), size, path);
     std::memset(scratch.data() + got, 0, text_padding);
