@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/text/first_few.hpp"
 #include "eval/metrics/diversity.hpp"
 
 namespace actformer::eval {
@@ -17,13 +18,8 @@ Json number(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
-std::string listed(std::vector<std::string> items) {
-    constexpr std::size_t most = 8;
-    const auto all = items.size();
-    if (all > most) items.resize(most);
-    std::string out;
-    for (const auto& item : items) out += (out.empty() ? "" : ", ") + item;
-    return all > most ? fmt::format("{} and {} more", out, all - most) : out;
+std::string listed(const std::vector<std::string>& items) {
+    return few_and_more(items, 8);
 }
 
 /// Fewest samples that any repeat has of a class.

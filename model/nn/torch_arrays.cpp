@@ -57,7 +57,7 @@ std::pair<std::int64_t, std::int64_t> matrix_shape(const std::vector<Array>& arr
 std::string names_of(const std::vector<Array>& arrays) {
     std::vector<std::string> names;
     for (const auto& array : arrays) names.push_back(in_quotes(array.name));
-    return first_few(names);
+    return few_and_more(names, 3);
 }
 
 }  // namespace actformer::model

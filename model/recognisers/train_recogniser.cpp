@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/text/first_few.hpp"
 #include "ingest/dataset/view.hpp"
 #include "model/nn/blas.hpp"
 #include "model/recognisers/learner.hpp"
@@ -28,12 +29,8 @@ std::string missing_classes(const kernels::ClipStore& clips, const std::vector<s
     for (std::size_t c = 0; c < counts.size(); ++c)
         if (counts[c] == 0) missing.push_back(classes[c]);
     if (missing.empty()) return {};
-    constexpr std::size_t named = 8;
-    const auto more = missing.size() > named ? fmt::format(" and {} more", missing.size() - named) : "";
-    const auto all = missing.size();
-    missing.resize(std::min(all, named));
-    return fmt::format("split {} has no clip of {} of the {} classes, which will not be recognised: {}{}",
-                       split, all, counts.size(), fmt::join(missing, ", "), more);
+    return fmt::format("split {} has no clip of {} of the {} classes, which will not be recognised: {}",
+                       split, missing.size(), counts.size(), few_and_more(missing, 8));
 }
 
 /// A network to train, and how its weights are saved.
