@@ -179,14 +179,14 @@ std::string value_text(const eval::Metric& metric, double value) {
 }
 
 void print_metrics(const eval::ScoreReport& report) {
-    say("{:<16}{:>22}{:>22}\n", "", "generated", "real against real");
+    say("{:<18}{:>22}{:>22}\n", "", "generated", "real against real");
     for (const auto& metric : eval::metrics()) {
         const auto got = summary(report, metric);
         if (!got) continue;
         auto text = value_text(metric, got->mean);
         if (got->half_width) text += " ± " + value_text(metric, *got->half_width);
         const auto floor = report.floor ? value_of(report.floor->score, metric) : std::nullopt;
-        say("{:<16}{:>22}{:>22}   {}\n", fmt::format("{} {}", metric.heading, metric.unit), text,
+        say("{:<18}{:>22}{:>22}   {}\n", heading_with_unit(metric), text,
             floor ? value_text(metric, *floor) : "-", describe(metric.direction));
     }
 }

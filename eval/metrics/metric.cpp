@@ -19,8 +19,8 @@ const std::vector<Metric>& metrics() {
         {"kid_whole", "KIDw", "", 1, Direction::lower},
         {"diversity", "diversity", "", 1, Direction::nearest_real},
         {"multimodality", "multimodality", "", 1, Direction::nearest_real},
-        {"limb_acceleration", "limb tremble", "", 1, Direction::nearest_real},
-        {"root_acceleration", "root tremble", "", 1, Direction::nearest_real},
+        {"limb_acceleration", "limb acceleration", "", 1, Direction::nearest_real},
+        {"root_acceleration", "root acceleration", "", 1, Direction::nearest_real},
         {"foot_sliding", "foot sliding", "", 1, Direction::nearest_real},
         {"root_distance", "root distance", "", 1, Direction::lower},
     };

@@ -1,4 +1,4 @@
-// What is measured of motions themselves, without a recogniser: how much they tremble, whether feet slide, and how far persons
+// What is measured of motions themselves, without a recogniser: how they accelerate, whether feet slide, and how far persons
 // keep from each other.
 #pragma once
 

@@ -61,7 +61,7 @@ void add_training_keys(RecogniserKeys& table) {
     table.add(
         &RecogniserSettings::noise,
         {.name = "noise",
-         .meaning = "deviation of what is added to all numbers to learn from, so that tremble nobody sees "
+         .meaning = "deviation of what is added to all numbers to learn from, so that jitter nobody sees "
                     "decides nothing; 0 as published",
          .least = 0,
          .most = 10});

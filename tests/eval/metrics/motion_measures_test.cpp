@@ -1,4 +1,4 @@
-// Tremble, sliding and distances of motions made to have known ones.
+// Accelerations, sliding and distances of motions made to have known ones.
 #include "eval/metrics/motion_measures.hpp"
 
 #include <gtest/gtest.h>

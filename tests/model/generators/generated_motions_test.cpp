@@ -98,7 +98,7 @@ TEST_F(ScoreGenerator, MakesTheClassesOfTheSplitOnly) {
 
 TEST_F(ScoreGenerator, MeasuresTheMotionsThemselves) {
     const auto json = scored(generator("--repeats 2"));
-    // An untrained generator trembles: its frames know little of one another.
+    // An untrained generator jitters: its frames know little of one another.
     EXPECT_GT(json["limb_acceleration"]["mean"], 1.5);
     EXPECT_EQ(json["real"]["limb_acceleration"], 1);
     EXPECT_NEAR(json["floor"]["limb_acceleration"].get<double>(), 1, 0.5) << "real against real";

@@ -118,8 +118,9 @@ TEST_F(Report, TheBestOfAColumnIsTheHighestAccuracyAndTheLowestDistance) {
 }
 
 TEST_F(Report, RowsThatWereScoredAgainstTheSameMotionsStandSideBySide) {
-    const auto with = [](Json scored, double tremble) {
-        scored["limb_acceleration"] = {{"mean", tremble}, {"repeats", {tremble, tremble * 1.01}}};
+    const auto with = [](Json scored, double acceleration) {
+        scored["limb_acceleration"] = {{"mean", acceleration},
+                                       {"repeats", {acceleration, acceleration * 1.01}}};
         scored["real"] = {{"accuracy", 0.9}, {"limb_acceleration", 1}};
         scored["floor"] = {{"fid_mean", 0.5}};
         return scored;
@@ -132,7 +133,7 @@ TEST_F(Report, RowsThatWereScoredAgainstTheSameMotionsStandSideBySide) {
     const RowTables tables(measured);
     ASSERT_EQ(tables.filled().size(), 2U);
     const auto& one = tables.filled()[0];
-    ASSERT_EQ(one.paper->columns[0].metrics.size(), 3U) << "accuracy, FIDm and tremble";
+    ASSERT_EQ(one.paper->columns[0].metrics.size(), 3U) << "accuracy, FIDm and acceleration";
     ASSERT_EQ(one.rows.size(), 3U) << "two rows and real motions";
     const auto figures = [&](std::size_t row, std::size_t metric) {
         return one.rows[row][0].figures[metric];
@@ -145,7 +146,7 @@ TEST_F(Report, RowsThatWereScoredAgainstTheSameMotionsStandSideBySide) {
     EXPECT_EQ(tables.filled()[1].rows.size(), 2U);
     const auto html = html_tables(tables.filled());
     EXPECT_NE(html.find("Rows on one"), std::string::npos);
-    EXPECT_NE(html.find("limb tremble"), std::string::npos);
+    EXPECT_NE(html.find("limb acceleration"), std::string::npos);
     EXPECT_NE(to_csv(tables.filled()).find("\nrows1,real motions,one,fid_mean,measured,0.5,,,0,,,\n"),
               std::string::npos);
     EXPECT_NE(to_latex(tables.filled()).find("real motions & 90.00 & 0.50"), std::string::npos);
