@@ -39,7 +39,7 @@ constexpr std::array<const char*, 8> step_names{"enter",    "gather", "graph",  
 /// Milliseconds a batch, by layer and step. Waiting for every step costs a little on its own.
 using Breakdown = std::array<std::array<double, step_names.size()>, eval::stgcn_layers>;
 
-Breakdown time_steps(kernels::Device& device, const eval::Weights& weights, const kernels::Tiles& tiles,
+Breakdown time_steps(kernels::Device& device, const eval::StgcnWeights& weights, const kernels::Tiles& tiles,
                      const BenchFeaturesOptions& options) {
     using Clock = std::chrono::steady_clock;
     Breakdown best{};
@@ -82,14 +82,14 @@ struct Peers {
 /// The peers, and a folder with the weights and the exported network for them.
 class PeerRunner {
   public:
-    PeerRunner(const BenchFeaturesOptions& options, const eval::Weights& weights)
+    PeerRunner(const BenchFeaturesOptions& options, const eval::StgcnWeights& weights)
         : options_(options), weights_(weights) {
         if (options.peers.empty()) return;
         if (!fs::exists(fs::path(options.peers) / "stgcn.py"))
             throw Error("{}: holds no stgcn.py; --peers names the folder of the reference programs",
                         options.peers);
         folder_.emplace("bench");
-        eval::write_weights(folder_->path() / "weights.h5", weights);
+        eval::write_stgcn_weights(folder_->path() / "weights.h5", weights);
     }
 
     /// Sequences a second of each peer at hand, each the best of five by its own clock, two threads.
@@ -116,7 +116,7 @@ class PeerRunner {
     }
 
     const BenchFeaturesOptions& options_;
-    const eval::Weights& weights_;
+    const eval::StgcnWeights& weights_;
     std::optional<Scratch> folder_;
 };
 
@@ -196,7 +196,7 @@ void print_json(const FeatureTimes& r, const BenchFeaturesOptions& options, cons
 }
 
 /// Peers and program take turns, so that a busy machine disturbs them alike; each keeps its best.
-FeatureTimes measure(kernels::Device& device, const eval::Weights& weights, const kernels::Tiles& tiles,
+FeatureTimes measure(kernels::Device& device, const eval::StgcnWeights& weights, const kernels::Tiles& tiles,
                      const BenchFeaturesOptions& options) {
     FeatureTimes result;
     result.direct = eval::direct_operations(weights, options.frames) * 1e-9;
@@ -214,8 +214,9 @@ FeatureTimes measure(kernels::Device& device, const eval::Weights& weights, cons
 
 void run(const BenchFeaturesOptions& options) {
     kernels::Device device(options.device);
-    const auto weights = options.recogniser.empty() ? eval::random_weights(3, 94, eval::ntu_graph(), 1, 0)
-                                                    : eval::read_weights(options.recogniser);
+    const auto weights = options.recogniser.empty()
+                             ? eval::random_stgcn_weights(3, 94, eval::ntu_graph(), 1, 0)
+                             : eval::read_stgcn_weights(options.recogniser);
     if (options.tune) {
         const auto tiles = eval::tune(device, weights, options.batch, options.frames,
                                       [&](const kernels::Tiles& t, double rate) {

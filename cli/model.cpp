@@ -72,8 +72,8 @@ std::vector<model::NetworkSummary> networks_of(const ModelOptions& options) {
         return {{"recogniser", model::gru_summary(model::gru_for(settings, spec.representation, spec.topology,
                                                                  spec.persons, spec.classes, spec.where),
                                                   settings.frames)}};
-    const auto network = model::network_for(settings, spec.representation, spec.topology, spec.persons,
-                                            spec.classes, spec.where);
+    const auto network = model::stgcn_for(settings, spec.representation, spec.topology, spec.persons,
+                                          spec.classes, spec.where);
     return {{"recogniser", model::stgcn_summary(network, settings.frames)}};
 }
 

@@ -12,7 +12,7 @@ struct Affine {
     std::vector<double> scale, shift;
 };
 
-Affine norm(const Weights& weights, const std::string& prefix) {
+Affine norm(const StgcnWeights& weights, const std::string& prefix) {
     constexpr double epsilon = 1e-5;
     const auto &gain = weights.at(prefix + "weight"), &offset = weights.at(prefix + "bias");
     const auto &mean = weights.at(prefix + "running_mean"), &variance = weights.at(prefix + "running_var");
@@ -24,7 +24,7 @@ Affine norm(const Weights& weights, const std::string& prefix) {
     return out;
 }
 
-void fold_graph(const Weights& weights, std::size_t index, FoldedLayer& layer) {
+void fold_graph(const StgcnWeights& weights, std::size_t index, FoldedLayer& layer) {
     const auto prefix = layer_prefix(index);
     const auto affine = norm(weights, prefix + "tcn.0.");
     const auto &weight = weights.at(prefix + "gcn.conv.weight"), &bias = weights.at(prefix + "gcn.conv.bias");
@@ -53,7 +53,7 @@ void fold_graph(const Weights& weights, std::size_t index, FoldedLayer& layer) {
         }
 }
 
-void fold_temporal(const Weights& weights, std::size_t index, FoldedLayer& layer) {
+void fold_temporal(const StgcnWeights& weights, std::size_t index, FoldedLayer& layer) {
     const auto prefix = layer_prefix(index);
     const auto affine = norm(weights, prefix + "tcn.3.");
     const auto &weight = weights.at(prefix + "tcn.2.weight"), &bias = weights.at(prefix + "tcn.2.bias");
@@ -68,7 +68,7 @@ void fold_temporal(const Weights& weights, std::size_t index, FoldedLayer& layer
     }
 }
 
-void fold_residual(const Weights& weights, std::size_t index, FoldedLayer& layer) {
+void fold_residual(const StgcnWeights& weights, std::size_t index, FoldedLayer& layer) {
     const auto residual = stgcn_layer(weights, index).residual;
     layer.identity_residual = residual == StgcnLayer::Residual::identity;
     if (residual != StgcnLayer::Residual::convolution) return;
@@ -86,7 +86,7 @@ void fold_residual(const Weights& weights, std::size_t index, FoldedLayer& layer
 
 }  // namespace
 
-FoldedNetwork fold(const Weights& weights) {
+FoldedNetwork fold(const StgcnWeights& weights) {
     FoldedNetwork network;
     auto input = norm(weights, "data_bn.");
     network.scale = std::move(input.scale);

@@ -29,6 +29,6 @@ struct FoldedNetwork {
     std::vector<FoldedLayer> layers;
 };
 
-FoldedNetwork fold(const Weights& weights);
+FoldedNetwork fold(const StgcnWeights& weights);
 
 }  // namespace actformer::eval

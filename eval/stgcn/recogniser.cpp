@@ -62,7 +62,7 @@ struct StgcnRecogniser::Network {
         std::numeric_limits<std::size_t>::max();  // sequences x frames that were found to fit
     std::function<void(std::size_t, Step)> probe;
 
-    Network(kernels::Device& on, const Weights& weights, const kernels::Tiles& tiles);
+    Network(kernels::Device& on, const StgcnWeights& weights, const kernels::Tiles& tiles);
 
     Panels view(const Buffer<float>& memory, std::uint32_t count, std::size_t rows,
                 std::uint32_t width) const {
@@ -83,7 +83,8 @@ struct StgcnRecogniser::Network {
              const Buffer<float>& features);
 };
 
-StgcnRecogniser::Network::Network(kernels::Device& on, const Weights& weights, const kernels::Tiles& tiles)
+StgcnRecogniser::Network::Network(kernels::Device& on, const StgcnWeights& weights,
+                                  const kernels::Tiles& tiles)
     : device(&on), kernels(on, tiles), channels(weights.channels), joints(weights.joints()) {
     const auto folded = fold(weights);
     for (const auto& layer : folded.layers) layers.push_back(place(kernels, layer, joints));
@@ -190,7 +191,8 @@ void StgcnRecogniser::Network::run(const cl::Buffer& motions, std::uint32_t begi
     done(layers.size() - 1, Step::pool);
 }
 
-StgcnRecogniser::StgcnRecogniser(kernels::Device& device, const Weights& weights, const kernels::Tiles& tiles)
+StgcnRecogniser::StgcnRecogniser(kernels::Device& device, const StgcnWeights& weights,
+                                 const kernels::Tiles& tiles)
     : Recogniser(device, {"stgcn", weights.source, weights.representation, weights.channels, weights.classes,
                           weights.features(), weights.graph.parents, weights.class_names}),
       network_(std::make_unique<Network>(device, weights, tiles)) {}
@@ -223,7 +225,7 @@ std::unique_ptr<Recogniser> open_stgcn(kernels::Device& device, const std::files
                                        std::uint32_t batch) {
     auto tiles = load_tiles(device.info());
     tiles.sequences = std::min(tiles.sequences, batch);
-    return std::make_unique<StgcnRecogniser>(device, read_weights(weights), tiles);
+    return std::make_unique<StgcnRecogniser>(device, read_stgcn_weights(weights), tiles);
 }
 
 }  // namespace actformer::eval

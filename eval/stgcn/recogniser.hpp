@@ -15,7 +15,7 @@ enum class Step { enter, gather, graph, split, temporal, join, residual, pool };
 /// tiles().sequences sequences go through the network together, or fewer where the device's memory asks for it.
 class StgcnRecogniser final : public Recogniser {
   public:
-    StgcnRecogniser(kernels::Device& device, const Weights& weights, const kernels::Tiles& tiles);
+    StgcnRecogniser(kernels::Device& device, const StgcnWeights& weights, const kernels::Tiles& tiles);
     ~StgcnRecogniser() override;
 
     using Recogniser::recognise;

@@ -115,7 +115,7 @@ void save_tiles(const kernels::DeviceInfo& device, const Tiles& tiles) {
     write_whole(tiles_file(), with_checksum(json).dump(2) + "\n");
 }
 
-double measure_rate(kernels::Device& device, const Weights& weights, const Tiles& tiles,
+double measure_rate(kernels::Device& device, const StgcnWeights& weights, const Tiles& tiles,
                     std::uint32_t sequences, std::uint32_t frames, int repeats) {
     StgcnRecogniser recogniser(device, weights, tiles);
     const std::vector<float> motions(std::size_t{sequences} * weights.channels * frames * weights.joints(),
@@ -132,8 +132,8 @@ double measure_rate(kernels::Device& device, const Weights& weights, const Tiles
     return best;
 }
 
-Tiles tune(kernels::Device& device, const Weights& weights, std::uint32_t sequences, std::uint32_t frames,
-           const std::function<void(const Tiles&, double)>& tell) {
+Tiles tune(kernels::Device& device, const StgcnWeights& weights, std::uint32_t sequences,
+           std::uint32_t frames, const std::function<void(const Tiles&, double)>& tell) {
     auto best = default_tiles(device.info());
     double best_rate = 0;
     const auto try_all = [&](const std::vector<Tiles>& choices) {

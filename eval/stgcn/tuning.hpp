@@ -20,11 +20,11 @@ void save_tiles(const kernels::DeviceInfo& device, const kernels::Tiles& tiles);
 
 /// Measures the recogniser with one choice after another: first the shapes of a tile, then how much a work-item does, then
 /// how many sequences go together. `tell` hears of each choice and its sequences a second.
-kernels::Tiles tune(kernels::Device& device, const Weights& weights, std::uint32_t sequences,
+kernels::Tiles tune(kernels::Device& device, const StgcnWeights& weights, std::uint32_t sequences,
                     std::uint32_t frames, const std::function<void(const kernels::Tiles&, double)>& tell);
 
 /// Sequences a second, best of `repeats`.
-double measure_rate(kernels::Device& device, const Weights& weights, const kernels::Tiles& tiles,
+double measure_rate(kernels::Device& device, const StgcnWeights& weights, const kernels::Tiles& tiles,
                     std::uint32_t sequences, std::uint32_t frames, int repeats);
 
 }  // namespace actformer::eval

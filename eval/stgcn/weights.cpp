@@ -52,10 +52,10 @@ std::pair<double, double> spread_of(const StgcnTensor& tensor) {
 
 }  // namespace
 
-Weights read_weights(const std::filesystem::path& file_path) {
+StgcnWeights read_stgcn_weights(const std::filesystem::path& file_path) {
     const auto path = file_path.string();
     const hdf5::Reader file(file_path);
-    Weights weights;
+    StgcnWeights weights;
     weights.source = path;
     auto about = read_attributes(file, path);
     weights.channels = about.channels;
@@ -73,7 +73,7 @@ Weights read_weights(const std::filesystem::path& file_path) {
     return weights;
 }
 
-void write_weights(const std::filesystem::path& path, const Weights& weights) {
+void write_stgcn_weights(const std::filesystem::path& path, const StgcnWeights& weights) {
     hdf5::Writer file(path);
     for (const auto& [name, shape, role, fan_in] : stgcn_tensors(weights))
         file.write<float>(name, hdf5::Shape(shape.begin(), shape.end()), weights.at(name));
@@ -84,9 +84,9 @@ void write_weights(const std::filesystem::path& path, const Weights& weights) {
     file.finish();
 }
 
-Weights random_weights(std::uint32_t channels, std::uint32_t classes, const Graph& graph, double width,
-                       std::uint32_t seed) {
-    Weights weights;
+StgcnWeights random_stgcn_weights(std::uint32_t channels, std::uint32_t classes, const Graph& graph,
+                                  double width, std::uint32_t seed) {
+    StgcnWeights weights;
     weights.source = "random weights";
     weights.channels = channels;
     weights.classes = classes;

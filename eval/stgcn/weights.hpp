@@ -15,7 +15,7 @@
 namespace actformer::eval {
 
 /// A network of any width with its tensors.
-struct Weights : StgcnShape {
+struct StgcnWeights : StgcnShape {
     std::string source;                     ///< the file, for messages
     ingest::Representation representation;  ///< of the motions; limbs where the file has no such attribute
     std::vector<std::string> class_names;   ///< (classes), or empty where the file does not tell
@@ -26,14 +26,14 @@ struct Weights : StgcnShape {
 
 /// Throws Error, one line naming the file and the tensor or attribute, for what is missing, unknown, of another shape, not
 /// finite, or no variance; for parents that are no tree, and a centre outside it.
-Weights read_weights(const std::filesystem::path& path);
+StgcnWeights read_stgcn_weights(const std::filesystem::path& path);
 
 /// Throws Error where the file cannot be written.
-void write_weights(const std::filesystem::path& path, const Weights& weights);
+void write_stgcn_weights(const std::filesystem::path& path, const StgcnWeights& weights);
 
 /// Well-conditioned random weights, for benchmarks and tests: `width` times the public network's channels, and the same seed
 /// gives the same weights.
-Weights random_weights(std::uint32_t channels, std::uint32_t classes, const Graph& graph, double width,
-                       std::uint32_t seed);
+StgcnWeights random_stgcn_weights(std::uint32_t channels, std::uint32_t classes, const Graph& graph,
+                                  double width, std::uint32_t seed);
 
 }  // namespace actformer::eval

@@ -29,7 +29,7 @@ std::vector<NetworkWeight> gru_weights(const GruSettings& settings);
 /// Lines for `actformer model`; shapes are of one motion of `frames` frames.
 std::vector<SummaryLine> gru_summary(const GruSettings& settings, std::uint32_t frames);
 
-/// As save_weights of stgcn_file.hpp, with the attributes kind ("gru"), representation, channels, classes, class_names and parents.
+/// As save_stgcn_weights of stgcn_file.hpp, with the attributes kind ("gru"), representation, channels, classes, class_names and parents.
 void save_gru_weights(const std::filesystem::path& path, const GruSettings& settings,
                       const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes,
                       const std::vector<std::string>& class_names);

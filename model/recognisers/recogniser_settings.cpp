@@ -136,9 +136,9 @@ RecogniserSettings recogniser_settings(const Config& config) {
     return (recogniser_kind_in(config) == RecogniserKind::gru ? gru_table() : stgcn_table()).read(config);
 }
 
-StgcnSettings network_for(const RecogniserSettings& settings, ingest::Representation representation,
-                          const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
-                          const std::string& dataset) {
+StgcnSettings stgcn_for(const RecogniserSettings& settings, ingest::Representation representation,
+                        const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
+                        const std::string& dataset) {
     check_motions(settings, persons, classes, dataset);
     StgcnSettings network;
     network.representation = representation;

@@ -51,9 +51,9 @@ RecogniserSettings recogniser_settings(const Config& config);
 
 /// The network for a dataset of `persons` persons and `classes` classes. Throws Error where the configuration asks
 /// for other numbers, naming `dataset`.
-StgcnSettings network_for(const RecogniserSettings& settings, ingest::Representation representation,
-                          const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
-                          const std::string& dataset);
+StgcnSettings stgcn_for(const RecogniserSettings& settings, ingest::Representation representation,
+                        const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
+                        const std::string& dataset);
 GruSettings gru_for(const RecogniserSettings& settings, ingest::Representation representation,
                     const ingest::Topology& topology, std::uint32_t persons, std::size_t classes,
                     const std::string& dataset);

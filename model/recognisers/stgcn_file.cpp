@@ -6,9 +6,9 @@
 
 namespace actformer::model {
 
-void save_weights(const std::filesystem::path& path, const StgcnSettings& settings,
-                  const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes,
-                  const std::vector<std::string>& class_names) {
+void save_stgcn_weights(const std::filesystem::path& path, const StgcnSettings& settings,
+                        const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes,
+                        const std::vector<std::string>& class_names) {
     auto file = weights_writer(arrays);
     eval::write_recogniser_attributes(
         file, "stgcn",

@@ -13,8 +13,8 @@ namespace actformer::model {
 
 /// Datasets of `arrays`; attributes kind ("stgcn"), channels, classes, class_names, parents, center, and `notes` as text (version, configuration, inputs).
 /// The file appears whole or not at all. Throws Error where it cannot be written.
-void save_weights(const std::filesystem::path& path, const StgcnSettings& settings,
-                  const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes,
-                  const std::vector<std::string>& class_names = {});
+void save_stgcn_weights(const std::filesystem::path& path, const StgcnSettings& settings,
+                        const std::vector<Array>& arrays, const std::map<std::string, std::string>& notes,
+                        const std::vector<std::string>& class_names = {});
 
 }  // namespace actformer::model

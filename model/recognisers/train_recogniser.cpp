@@ -56,10 +56,10 @@ Trainee trainee_for(const RecogniserSettings& settings, const ingest::Dataset& d
                 save_gru_weights(path, network, weights, notes, classes);
             }};
     }
-    const auto network = network_of(network_for);
+    const auto network = network_of(stgcn_for);
     return {stgcn_network(settings, network, device),
             [network, classes = header.classes](const auto& path, const auto& weights, const auto& notes) {
-                save_weights(path, network, weights, notes, classes);
+                save_stgcn_weights(path, network, weights, notes, classes);
             }};
 }
 

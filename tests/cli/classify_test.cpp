@@ -45,8 +45,8 @@ std::vector<double> softmax_of_mean(const std::vector<std::vector<double>>& logi
 struct Classify : testing::Test {
     void SetUp() override {
         const auto graph = eval::recogniser_graph(ingest::Dataset(toy()).header().topology.parents);
-        weights = eval::random_weights(3, 3, graph, 0.125, 5);
-        write_weights(dir / "w.h5", weights);
+        weights = eval::random_stgcn_weights(3, 3, graph, 0.125, 5);
+        write_stgcn_weights(dir / "w.h5", weights);
     }
     std::string at(const std::string& name) const { return (dir / name).string(); }
     CommandResult classify(const std::string& more) const {
@@ -66,7 +66,7 @@ struct Classify : testing::Test {
         EXPECT_FALSE(std::filesystem::exists(at("refused.csv")));
     }
 
-    eval::Weights weights;
+    eval::StgcnWeights weights;
     TempDir dir;
 };
 
@@ -138,7 +138,7 @@ TEST_F(Classify, TakesMotionsWithoutLabels) {
 
 TEST_F(Classify, NamesClassesAsTheRecogniserLearntThem) {
     weights.class_names = {"sit", "stand", "walk"};
-    write_weights(dir / "w.h5", weights);
+    write_stgcn_weights(dir / "w.h5", weights);
     const auto json = classified(toy().string());
     for (const auto& row : json)
         EXPECT_EQ(row["name"], weights.class_names[row["class"].get<std::size_t>() - 1]);
@@ -163,7 +163,7 @@ TEST_F(Classify, RefusesWhatDoesNotFit) {
 TEST_F(Classify, TakesTheBestWeightsOfATraining) {
     std::filesystem::create_directory(dir / "run");
     const auto with = [&](const char* file, unsigned seed) {
-        write_weights(dir / "run" / file, eval::random_weights(3, 3, weights.graph, 0.125, seed));
+        write_stgcn_weights(dir / "run" / file, eval::random_stgcn_weights(3, 3, weights.graph, 0.125, seed));
         const auto by_folder =
             run_actformer("classify --json --recogniser " + at("run") + " " + toy().string());
         const auto by_file = run_actformer("classify --json --recogniser " + at("run/" + std::string(file)) +

@@ -142,10 +142,10 @@ std::string weights_for(const fs::path& dataset, const TempDir& dir) {
     const auto& header = opened.header();
     const auto graph = eval::recogniser_graph(header.topology.parents);
     const auto channels = header.persons * header.representation.numbers();
-    eval::write_weights(
+    eval::write_stgcn_weights(
         dir / "recogniser.h5",
-        eval::random_weights(static_cast<std::uint32_t>(channels),
-                             static_cast<std::uint32_t>(header.classes.size()), graph, 0.125, 5));
+        eval::random_stgcn_weights(static_cast<std::uint32_t>(channels),
+                                   static_cast<std::uint32_t>(header.classes.size()), graph, 0.125, 5));
     return (dir / "recogniser.h5").string();
 }
 

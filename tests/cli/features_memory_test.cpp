@@ -34,7 +34,7 @@ struct Memory : testing::Test {
         ::setenv("XDG_CACHE_HOME", dir.path().c_str(), 1);
         eval::save_tiles(device.info(), tiles);
         ::unsetenv("XDG_CACHE_HOME");
-        write_weights(dir / "w.h5", eval::random_weights(3, 4, eval::ntu_graph(), 0.125, 5));
+        write_stgcn_weights(dir / "w.h5", eval::random_stgcn_weights(3, 4, eval::ntu_graph(), 0.125, 5));
     }
     void write_motions(std::uint32_t count, std::uint32_t length) {
         ingest::MotionsWriter writer(dir / "m.h5");

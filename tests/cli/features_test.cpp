@@ -44,7 +44,7 @@ double relative_error(const std::vector<float>& a, const std::vector<float>& b) 
 
 struct Features : testing::Test {
     void weights(std::uint32_t channels, std::uint32_t classes, const eval::Graph& graph) {
-        write_weights(dir / "w.h5", eval::random_weights(channels, classes, graph, 0.125, 5));
+        write_stgcn_weights(dir / "w.h5", eval::random_stgcn_weights(channels, classes, graph, 0.125, 5));
     }
     void motions(const std::vector<std::pair<std::string, std::uint32_t>>& frames, std::uint32_t persons = 1,
                  std::uint32_t joints = 25) {
@@ -102,7 +102,7 @@ TEST_F(Features, TakeEveryMotionAtItsFullLength) {
     EXPECT_EQ(file.read_strings("names"), (std::vector<std::string>{"A001_0", "A001_1", "A002_0", "A004_0"}));
     EXPECT_EQ(file.read<std::uint32_t>("labels"), (std::vector<std::uint32_t>{0, 0, 1, 3}));
     const auto got = file.read<float>("features"), logits = file.read<float>("logits");
-    const auto recogniser = eval::read_weights(dir / "w.h5");
+    const auto recogniser = eval::read_stgcn_weights(dir / "w.h5");
     const PlainRecogniser plain(recogniser);
     const ingest::MotionsFile stored(dir / "m.h5");
     for (std::size_t i = 0; i < 4; ++i) {
@@ -202,7 +202,7 @@ TEST_F(Features, AgreeWithTheReference) {
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const auto& c = cases[i];
         const auto graph = c.ntu ? eval::ntu_graph() : eval::Graph{small_tree, 0};
-        write_weights(dir / "w.h5", eval::random_weights(3 * c.persons, 94, graph, c.width, 8));
+        write_stgcn_weights(dir / "w.h5", eval::random_stgcn_weights(3 * c.persons, 94, graph, c.width, 8));
         motions({{"a", c.frames}, {"b", c.frames + 3}, {"c", c.frames}, {"d", c.frames + 3}, {"e", c.frames}},
                 c.persons, graph.joints());
         const auto frames = "--frames " + std::to_string(c.frames);

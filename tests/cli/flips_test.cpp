@@ -22,7 +22,7 @@ struct Artefacts {
     Artefacts() {
         fs::copy(arms_in(ingest::Representation::limb), dir / "data");
         eval::Graph graph{ArmsClip::topology().parents, 0};
-        write_weights(dir / "w.h5", eval::random_weights(3, 3, graph, 0.0625, 5));
+        write_stgcn_weights(dir / "w.h5", eval::random_stgcn_weights(3, 3, graph, 0.0625, 5));
         ingest::MotionsWriter writer(dir / "m.h5");
         for (std::uint32_t label = 0; label < 3; ++label)
             for (std::uint32_t i = 0; i < 4; ++i)

@@ -29,9 +29,9 @@ struct Swept {
         for (const auto* name : {"ntu-1p", "ntu-2p"}) {
             const ingest::Dataset dataset(dir / "data" / name);
             const auto classes = static_cast<std::uint32_t>(dataset.header().classes.size());
-            eval::write_weights(
-                dir / (std::string(name) + "-recogniser.h5"),
-                eval::random_weights(3 * dataset.header().persons, classes, eval::ntu_graph(), 0.125, 1));
+            eval::write_stgcn_weights(dir / (std::string(name) + "-recogniser.h5"),
+                                      eval::random_stgcn_weights(3 * dataset.header().persons, classes,
+                                                                 eval::ntu_graph(), 0.125, 1));
             write_motions(dataset, std::string(name) + ".h5");
         }
         write_file(dir / "sweep.yaml", sweep_yaml());

@@ -60,7 +60,7 @@ void expect_recogniser(const Chain& chain) {
         accuracy = line.value("class_accuracy", accuracy);
     // Which of three arms swings can be seen in any representation; chance is a third.
     EXPECT_GT(accuracy, 0.6) << chain.how.name();
-    const auto weights = eval::read_weights(chain.dir / "recogniser/weights-last.h5");
+    const auto weights = eval::read_stgcn_weights(chain.dir / "recogniser/weights-last.h5");
     EXPECT_EQ(weights.representation, chain.how);
     EXPECT_EQ(weights.channels, chain.how.numbers());
     EXPECT_EQ(weights.graph.parents, chain.how.node_parents(ArmsClip::topology()));
@@ -156,11 +156,11 @@ void expect_report(const std::vector<std::unique_ptr<Chain>>& chains) {
 
 /// A recogniser's weights at random.
 std::string recogniser_for(const TempDir& dir, Representation how) {
-    auto weights = eval::random_weights(
+    auto weights = eval::random_stgcn_weights(
         how.numbers(), 3, eval::recogniser_graph(how.node_parents(ArmsClip::topology())), 0.125, 1);
     weights.representation = how;
     const auto path = dir / (how.name() + "-eyes.h5");
-    eval::write_weights(path, weights);
+    eval::write_stgcn_weights(path, weights);
     return path.string();
 }
 

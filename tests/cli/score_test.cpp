@@ -49,10 +49,10 @@ const fs::path& datasets() {
 struct Score : testing::Test {
     void SetUp() override {
         one_person_classes = classes_of("ntu-1p");
-        write_weights(dir / "one.h5",
-                      eval::random_weights(3, one_person_classes, eval::ntu_graph(), 0.125, 1));
-        write_weights(dir / "two.h5",
-                      eval::random_weights(6, classes_of("ntu-2p"), eval::ntu_graph(), 0.125, 2));
+        write_stgcn_weights(dir / "one.h5",
+                            eval::random_stgcn_weights(3, one_person_classes, eval::ntu_graph(), 0.125, 1));
+        write_stgcn_weights(dir / "two.h5",
+                            eval::random_stgcn_weights(6, classes_of("ntu-2p"), eval::ntu_graph(), 0.125, 2));
     }
     static std::uint32_t classes_of(const char* name) {
         return static_cast<std::uint32_t>(ingest::Dataset(datasets() / name).header().classes.size());
@@ -238,8 +238,9 @@ void write_common_joints(const fs::path& folder) {
 TEST_F(Score, OfGroupsAloneSeesTheCommonJointsOfAnySkeleton) {
     const auto seen = (dir / "seen").string(), real = (datasets() / "ntu-2p").string();
     write_common_joints(seen);
-    write_weights(dir / "common.h5",
-                  eval::random_weights(3, 7, eval::recogniser_graph(ingest::common15().parents), 0.125, 3));
+    write_stgcn_weights(
+        dir / "common.h5",
+        eval::random_stgcn_weights(3, 7, eval::recogniser_graph(ingest::common15().parents), 0.125, 3));
     const ingest::Dataset data(real);
     const auto subjects = ingest::subjects_of(data);
     ingest::MotionsWriter own(dir / "own.h5"), common(dir / "common-motions.h5");
@@ -444,8 +445,8 @@ TEST_F(Score, RefusesWhatDoesNotFit) {
                    {"--single-recogniser"});
     expect_refused(two_persons() + "--single-recogniser " + at("two.h5") + " --generated " + at("two.h5m"),
                    {"two.h5", "one"});
-    write_weights(dir / "more.h5",
-                  eval::random_weights(3, one_person_classes + 1, eval::ntu_graph(), 0.125, 1));
+    write_stgcn_weights(dir / "more.h5",
+                        eval::random_stgcn_weights(3, one_person_classes + 1, eval::ntu_graph(), 0.125, 1));
     expect_refused("--recogniser " + at("more.h5") + " --real " + (datasets() / "ntu-1p").string() +
                        " --generated " + at("m.h5"),
                    {"classes", "more.h5"});

@@ -249,7 +249,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (kind == 1) try_to([&] { read_motions(path); });
     if (kind == 2) try_to([&] { demand(eval::read_features(path).samples.size() < 36); });
     if (kind == 3) {
-        try_to([&] { eval::read_weights(path); });
+        try_to([&] { eval::read_stgcn_weights(path); });
         try_to([&] { eval::read_gru_weights(path); });
     }
     return 0;

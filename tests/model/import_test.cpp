@@ -96,8 +96,9 @@ struct Import : testing::Test {
         if (!has_eager_pytorch()) return;
         folder = std::make_unique<TempDir>();
         const auto topology = ingest::Dataset(toy()).header().topology;
-        eval::write_weights(*folder / "stgcn.h5",
-                            eval::random_weights(3, 3, eval::recogniser_graph(topology.parents), 0.125, 5));
+        eval::write_stgcn_weights(
+            *folder / "stgcn.h5",
+            eval::random_stgcn_weights(3, 3, eval::recogniser_graph(topology.parents), 0.125, 5));
         write_file(*folder / "make.py", script);
         const auto made = run_command(
             fmt::format("cd {} && /usr/bin/python3 make.py {}", folder->path().string(), topology.joints()));
@@ -197,7 +198,7 @@ TEST_F(Import, RecognisersKeepTheirNumbers) {
         EXPECT_EQ(made, names);
         for (const auto& name : names) EXPECT_EQ(out.read<float>(name), in.read<float>(name)) << name;
     }
-    EXPECT_EQ(eval::read_weights(at("out.h5")).classes, 3U);
+    EXPECT_EQ(eval::read_stgcn_weights(at("out.h5")).classes, 3U);
     const auto features =
         run_actformer("features --recogniser " + at("out.h5") + " " + toy().string() + " -o " + at("f.h5"));
     EXPECT_EQ(features.exit, 0) << features.output;

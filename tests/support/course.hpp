@@ -51,8 +51,8 @@ inline void show(const kernels::ClipStore& clips, const model::RecogniserSetting
 inline Course course_of(const model::RecogniserSettings& settings) {
     const auto dataset = model::dataset_to_train_on(settings.data);
     const auto& header = dataset.header();
-    const auto shape = model::network_for(settings, header.representation, header.topology, header.persons,
-                                          header.classes.size(), dataset.folder().string());
+    const auto shape = model::stgcn_for(settings, header.representation, header.topology, header.persons,
+                                        header.classes.size(), dataset.folder().string());
     kernels::Device device(settings.opencl);
     const auto clips = ingest::load_view(device, dataset, settings.train_split);
     Course course{{shape, settings.seed, at::kCPU, model::torch_type(settings.precision)},

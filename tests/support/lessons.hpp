@@ -51,7 +51,7 @@ inline Learnt learn(model::StgcnNet& net, const Lessons& lessons) {
 inline std::optional<Learnt> learn_in_eager_pytorch(const model::StgcnNet& start, const Lessons& lessons) {
     const TempDir dir;
     const auto weights = dir / "start.h5", file = dir / "lessons.h5";
-    model::save_weights(weights, start.settings(), start.arrays(), {});
+    model::save_stgcn_weights(weights, start.settings(), start.arrays(), {});
     {
         const auto sizes = [](const at::Tensor& t) {
             return hdf5::Shape(t.sizes().begin(), t.sizes().end());

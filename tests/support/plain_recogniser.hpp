@@ -19,7 +19,7 @@ struct PlainResult {
 /// One motion (channels, frames, K) by the definition: every sum written out, batch norms where they stand.
 class PlainRecogniser {
   public:
-    explicit PlainRecogniser(const eval::Weights& weights)
+    explicit PlainRecogniser(const eval::StgcnWeights& weights)
         : w_(weights), parts_(eval::partition(weights.graph)) {}
 
     PlainResult operator()(const float* motion, std::size_t frames) const {
@@ -122,7 +122,7 @@ class PlainRecogniser {
         return norm(eval::layer_prefix(i) + "residual.1.", o, sum);
     }
 
-    const eval::Weights& w_;
+    const eval::StgcnWeights& w_;
     std::array<eval::Adjacency, 3> parts_;
 };
 

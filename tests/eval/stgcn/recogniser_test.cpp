@@ -38,8 +38,9 @@ struct Case {
 };
 
 void expect_right(const Case& c, const kernels::Tiles& tiles, kernels::Device& device) {
-    const auto weights = c.ntu ? eval::random_weights(c.persons * 3, 7, eval::ntu_graph(), c.width, 1)
-                               : eval::random_weights(c.persons * 3, 11, {test::small_tree, 0}, c.width, 2);
+    const auto weights =
+        c.ntu ? eval::random_stgcn_weights(c.persons * 3, 7, eval::ntu_graph(), c.width, 1)
+              : eval::random_stgcn_weights(c.persons * 3, 11, {test::small_tree, 0}, c.width, 2);
     eval::StgcnRecogniser recogniser(device, weights, tiles);
     const std::size_t numbers = std::size_t{weights.channels} * c.frames * weights.joints();
     const auto motions = made_motions(c.sequences * numbers, c.frames);
@@ -84,7 +85,7 @@ TEST(Recogniser, AgreesWithEveryShapeOfTiles) {
 
 TEST(Recogniser, GivesAMotionTheSameNumbersInAnyBatch) {
     kernels::Device device;
-    const auto weights = eval::random_weights(3, 5, eval::ntu_graph(), 0.25, 3);
+    const auto weights = eval::random_stgcn_weights(3, 5, eval::ntu_graph(), 0.25, 3);
     eval::StgcnRecogniser recogniser(device, weights, kernels::default_tiles(device.info()));
     const auto motions = made_motions(21 * 3 * 20 * 25, 4);
     const auto together = recogniser.recognise(motions, 21, 20);
@@ -98,7 +99,7 @@ TEST(Recogniser, GivesAMotionTheSameNumbersInAnyBatch) {
 
 TEST(Recogniser, RefusesMotionsOfAnotherSize) {
     kernels::Device device;
-    const auto weights = eval::random_weights(3, 5, eval::ntu_graph(), 0.125, 3);
+    const auto weights = eval::random_stgcn_weights(3, 5, eval::ntu_graph(), 0.125, 3);
     eval::StgcnRecogniser recogniser(device, weights, kernels::default_tiles(device.info()));
     EXPECT_THROW(recogniser.recognise(made_motions(100, 1), 1, 20), Error);
     EXPECT_THROW(recogniser.recognise(std::span<const float>(), 1, 0), Error);
@@ -121,8 +122,8 @@ std::string refusal_of(const std::filesystem::path& weights) {
 
 TEST(Recogniser, IsOpenedByTheKindOfItsWeights) {
     const test::TempDir dir;
-    const auto weights = eval::random_weights(6, 5, eval::ntu_graph(), 0.125, 3);
-    write_weights(dir / "w.h5", weights);
+    const auto weights = eval::random_stgcn_weights(6, 5, eval::ntu_graph(), 0.125, 3);
+    write_stgcn_weights(dir / "w.h5", weights);
     kernels::Device device;
     const auto opened = eval::open_recogniser(device, dir / "w.h5");
     EXPECT_EQ(opened->info().kind, "stgcn");
@@ -149,7 +150,7 @@ TEST(Recogniser, IsOpenedByTheKindOfItsWeights) {
 
 TEST(Recogniser, OpensWeightsWithoutAKindAsAnStgcn) {
     const test::TempDir dir;
-    const auto weights = eval::random_weights(3, 4, {test::small_tree, 0}, 0.0625, 3);
+    const auto weights = eval::random_stgcn_weights(3, 4, {test::small_tree, 0}, 0.0625, 3);
     hdf5::Writer file(dir / "public.h5");
     for (const auto& tensor : eval::stgcn_tensors(weights))
         file.write<float>(tensor.name, hdf5::Shape(tensor.shape.begin(), tensor.shape.end()),

@@ -13,8 +13,8 @@ using namespace actformer;
 
 namespace {
 
-eval::Weights small() {
-    return eval::random_weights(6, 5, {test::small_tree, 0}, 0.0625, 1);
+eval::StgcnWeights small() {
+    return eval::random_stgcn_weights(6, 5, {test::small_tree, 0}, 0.0625, 1);
 }
 
 /// Writes what `change` makes of good weights; tensors taken out are left out.
@@ -41,7 +41,7 @@ struct Changed {
 
     std::string refusal() const {
         try {
-            eval::read_weights(path);
+            eval::read_stgcn_weights(path);
         } catch (const Error& e) {
             return e.what();
         }
@@ -58,11 +58,11 @@ void expect_refusal(const Changed& file, const std::string& part) {
 
 }  // namespace
 
-TEST(Weights, ComeBackAsTheyWereWritten) {
+TEST(StgcnWeights, ComeBackAsTheyWereWritten) {
     const test::TempDir folder;
     const auto weights = small();
-    write_weights(folder / "w.h5", weights);
-    const auto back = eval::read_weights(folder / "w.h5");
+    write_stgcn_weights(folder / "w.h5", weights);
+    const auto back = eval::read_stgcn_weights(folder / "w.h5");
     EXPECT_EQ(back.tensors, weights.tensors);
     EXPECT_EQ(back.graph, weights.graph);
     EXPECT_EQ(back.widths, weights.widths);
@@ -70,7 +70,7 @@ TEST(Weights, ComeBackAsTheyWereWritten) {
     EXPECT_EQ(back.classes, 5U);
 }
 
-TEST(Weights, NameWhatIsWrong) {
+TEST(StgcnWeights, NameWhatIsWrong) {
     const std::string norm = "st_gcn_networks.4.residual.1.running_var";
     expect_refusal(Changed([&](auto& w, auto&) { w.tensors.erase(norm); }), norm);
     expect_refusal(Changed([](auto& w, auto&) { w.tensors.erase("st_gcn_networks.2.tcn.2.weight"); }),
@@ -95,7 +95,7 @@ TEST(Weights, NameWhatIsWrong) {
     expect_refusal(Changed([&](auto& w, auto&) { w.tensors[norm][0] = -1; }), norm);
 }
 
-TEST(Weights, RefuseParentsThatAreNoTree) {
+TEST(StgcnWeights, RefuseParentsThatAreNoTree) {
     expect_refusal(Changed([](auto& w, auto&) { w.graph.parents[5] = 6; }),
                    "no tree");  // 5 and 6 hang from each other
     expect_refusal(Changed([](auto& w, auto&) { w.graph.parents[5] = -1; }), "no tree");  // two roots
@@ -105,11 +105,11 @@ TEST(Weights, RefuseParentsThatAreNoTree) {
                    "");  // fewer joints than the tensors
 }
 
-TEST(Weights, RefuseFilesThatAreNone) {
+TEST(StgcnWeights, RefuseFilesThatAreNone) {
     const test::TempDir folder;
-    EXPECT_THROW(eval::read_weights(folder / "none.h5"), Error);
+    EXPECT_THROW(eval::read_stgcn_weights(folder / "none.h5"), Error);
     test::write_file(folder / "text.h5", "no HDF5");
-    EXPECT_THROW(eval::read_weights(folder / "text.h5"), Error);
+    EXPECT_THROW(eval::read_stgcn_weights(folder / "text.h5"), Error);
     hdf5::Writer(folder / "empty.h5").finish();
-    EXPECT_THROW(eval::read_weights(folder / "empty.h5"), Error);
+    EXPECT_THROW(eval::read_stgcn_weights(folder / "empty.h5"), Error);
 }

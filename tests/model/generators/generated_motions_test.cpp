@@ -26,7 +26,7 @@ struct ScoreGenerator : testing::Test {
                                            toy().string() + " -o " + at("run"));
         ASSERT_EQ(trained.exit, 0) << trained.output;
         const auto graph = eval::recogniser_graph(ingest::Dataset(toy()).header().topology.parents);
-        eval::write_weights(dir / "w.h5", eval::random_weights(3, 3, graph, 0.125, 5));
+        eval::write_stgcn_weights(dir / "w.h5", eval::random_stgcn_weights(3, 3, graph, 0.125, 5));
     }
     std::string at(const std::string& name) const { return (dir / name).string(); }
     std::string line(const std::string& more) const {
@@ -184,7 +184,7 @@ TEST_F(ScoreGenerator, RefusesWhatDoesNotFit) {
     refused(generator("--generate-on nonsense"), {"nonsense"});
     refused("--generator " + at("run") + " --generated " + at("m.h5"), {"either"});
     const auto graph = eval::recogniser_graph(ingest::Dataset(toy()).header().topology.parents);
-    eval::write_weights(dir / "w.h5", eval::random_weights(6, 3, graph, 0.125, 5));
+    eval::write_stgcn_weights(dir / "w.h5", eval::random_stgcn_weights(6, 3, graph, 0.125, 5));
     refused(generator(""), {"w.h5", "channels"});
     const auto recogniser_for_generator =
         run_actformer("features --recogniser " + at("run") + " " + toy().string() + " -o " + at("f.h5"));

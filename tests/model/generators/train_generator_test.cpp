@@ -50,7 +50,7 @@ struct TrainGenerator : testing::Test {
     /// A recogniser of random weights that fits the toy dataset: its scores mean nothing, and are numbers.
     std::string recogniser() const {
         const auto graph = eval::recogniser_graph(ingest::Dataset(toy()).header().topology.parents);
-        eval::write_weights(dir / "recogniser.h5", eval::random_weights(3, 3, graph, 0.125, 5));
+        eval::write_stgcn_weights(dir / "recogniser.h5", eval::random_stgcn_weights(3, 3, graph, 0.125, 5));
         return "recogniser=" + at("recogniser.h5");
     }
 

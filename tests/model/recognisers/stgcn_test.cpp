@@ -240,7 +240,7 @@ TEST(Stgcn, AgreesWithTheOracleBothWays) {
         arrays.push_back({info.name, {shape.begin(), shape.end()}, file.read<float>(info.name)});
     }
     net.load(arrays, "w.h5");
-    save_weights(dir / "ours.h5", settings, net.arrays(), {{"program", "test"}});
+    save_stgcn_weights(dir / "ours.h5", settings, net.arrays(), {{"program", "test"}});
 
     at::manual_seed(4);
     const auto x = at::randn({3, 2, 3, 64, 25});  // persons apart, as a motions file takes them
