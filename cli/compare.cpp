@@ -209,14 +209,14 @@ void run(const CompareOptions& options) {
 void add_compare(CLI::App& app) {
     auto options = std::make_shared<CompareOptions>();
     auto* command =
-        app.add_subcommand("compare", "Score two generators with the same seeds, and what lies between them");
+        app.add_subcommand("compare", "Score two generators with the same seeds, and test their differences");
     command->add_option("a", options->a, "A training, weights of a generator, or motions")->required();
     command->add_option("b", options->b, "Another of these")->required();
     command->add_option("--recogniser", options->recogniser, "Training or weights of a recogniser")
         ->required();
     command->add_option("--real", options->real, "Dataset of real motions")->required()->type_name("DATASET");
-    command->add_option("--split", options->split, "Which of them")->capture_default_str();
-    command->add_option("--repeats", options->repeats, "Seeds")
+    command->add_option("--split", options->split, "Split of the real dataset")->capture_default_str();
+    command->add_option("--repeats", options->repeats, "Number of seeds to generate with")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
     command->add_option("--per-class", options->per_class, "Motions of a class")
@@ -236,7 +236,8 @@ void add_compare(CLI::App& app) {
         "comparison\n"
         "  actformer compare weights/cmu/actformer.h5 mine.h5 --recogniser weights/cmu/recogniser.h5 --real "
         "cmu -o c\n"
-        "A difference is taken seed by seed; one whose interval of 95 % holds 0 is not shown to be there.\n");
+        "Differences are taken seed by seed. A difference whose 95 % interval contains 0 is not "
+        "significant.\n");
     command->callback([options] { run(*options); });
 }
 

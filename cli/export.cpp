@@ -73,13 +73,13 @@ void add_export(CLI::App& app) {
     command->add_option("--split", selection.split, "As in xsub/train (default: all clips)");
     command->add_option("--class", selection.label, "Clips of this class: its name, or its number from 1");
     command->add_option("--clip", selection.clips, "This clip; may be given again")->allow_extra_args(false);
-    command->add_option("--count", selection.count, "So many of them, evenly spaced (default: all)")
+    command->add_option("--count", selection.count, "Number of clips, evenly spaced (default: all)")
         ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 40));
     command->add_option("--person", selection.person, "This person alone, a number from 1 (default: all)")
         ->check(CLI::Range(1U, 1'000'000U));
     command
         ->add_option("--bones", request.bones,
-                     "Dataset whose skeleton and mean limb lengths motions get, before their file's own")
+                     "Dataset whose skeleton and mean limb lengths motions get in place of their file's own")
         ->type_name("DATASET");
     command
         ->add_option("--body", request.body,

@@ -62,7 +62,7 @@ void add_generate(CLI::App& app) {
                      "Classes by name or by number from 1, as in walk,3 (default: all)")
         ->delimiter(',')
         ->type_name("LIST");
-    command->add_option("--seed", request.seed, "Of what is random")->capture_default_str();
+    command->add_option("--seed", request.seed, "Random seed")->capture_default_str();
     command->add_option("--frames", request.frames, "Frames a motion (default: as it was trained)")
         ->check(CLI::Range(1, 4096));
     command->add_option("--device", request.device, "Where libtorch works: cpu, cuda or cuda:N")

@@ -177,7 +177,8 @@ void add_sweep(CLI::App& app) {
     command->add_option("--sbatch", options->sbatch, "A word for every sbatch, as in --sbatch=--gres=gpu:1")
         ->needs(slurm)
         ->type_name("WORD");
-    command->add_option("--only", options->only, "One job, whose needs are done")->type_name("JOB");
+    command->add_option("--only", options->only, "Run one job alone; what it needs must be done")
+        ->type_name("JOB");
     command->add_option("--program", options->program, "The actformer that does the jobs (default: this one)")
         ->type_name("PROGRAM");
     command->add_flag("--json", options->json, "Print the results as JSON");

@@ -97,7 +97,8 @@ void add_ntu(CLI::App* synth) {
     command->add_option("-o,--out", a->options.folder, "Folder to write into")->required();
     command->add_option("--clips", a->options.clips, "How many, the actions taking turns")
         ->capture_default_str();
-    command->add_option("--seed", a->options.seed, "Another seed, other performances")->capture_default_str();
+    command->add_option("--seed", a->options.seed, "Random seed: another one gives other performances")
+        ->capture_default_str();
     command->add_option("--actions", a->actions, "Only these, as in 1,2,50-60 (default: all 120)");
     command
         ->add_option("--threads", a->options.threads,
@@ -123,7 +124,8 @@ void add_stand_in(CLI::App* synth, const StandIn& stand_in) {
     command->add_option("--clips", a->options.clips, "How many, " + std::string(stand_in.what_clips_do))
         ->capture_default_str()
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000}));
-    command->add_option("--seed", a->options.seed, "Another seed, other performances")->capture_default_str();
+    command->add_option("--seed", a->options.seed, "Random seed: another one gives other performances")
+        ->capture_default_str();
     command
         ->add_option("--threads", a->options.threads,
                      "How many clips are made at once (default: one a processor)")

@@ -21,10 +21,10 @@ void add_training_options(CLI::App* command, TrainingOptions& options) {
                   "model/configs")
         ->required()
         ->type_name("CONFIG.yaml");
-    command->add_option("--data", options.data, "Dataset folder, before the configuration's data:")
+    command->add_option("--data", options.data, "Dataset folder; overrides the configuration's data:")
         ->type_name("DATASET");
     command->add_option("-o,--out", options.run, "Folder of this training")->required()->type_name("RUN");
-    command->add_option("overrides", options.overrides, "As in batch=32, before the configuration's")
+    command->add_option("overrides", options.overrides, "As in batch=32: overrides the configuration")
         ->type_name("KEY=VALUE");
     command->add_flag("--json", options.json, "Print the result as JSON");
 }

@@ -56,7 +56,7 @@ using Shape = std::vector<hsize_t>;
 /// Throws Error, with `what` was tried, for an identifier that is none.
 Handle checked(hid_t id, herr_t (*close)(hid_t), const char* what);
 
-/// Called before the library is used. Keeps it quiet: it would print its own stack of errors beside ours, and at exit complain of
+/// Called before the library is used. Keeps it quiet: it would print its own stack of errors beside ours, and at exit warn of
 /// files that a full disk left open. Keeps it from following links into other files.
 void silence();
 

@@ -20,7 +20,7 @@ namespace {
 struct Motions {
     ingest::Subjects subjects;
     std::vector<int> parents;
-    std::string where;  ///< the file, for complaints
+    std::string where;  ///< the file, for error messages
 
     std::uint32_t channels() const { return subjects.persons * subjects.representation.numbers(); }
     std::uint32_t classes() const { return static_cast<std::uint32_t>(subjects.classes.size()); }

@@ -133,7 +133,8 @@ RecogniserKind recogniser_kind_in(const std::filesystem::path& file) {
 }
 
 RecogniserSettings recogniser_settings(const Config& config) {
-    return (recogniser_kind_in(config) == RecogniserKind::gru ? gru_table() : stgcn_table()).read(config);
+    const bool gru = eval::recogniser_kind_named(config.model()) == RecogniserKind::gru;
+    return (gru ? gru_table() : stgcn_table()).read(config);
 }
 
 StgcnSettings stgcn_for(const RecogniserSettings& settings, ingest::Representation representation,
