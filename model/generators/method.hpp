@@ -1,8 +1,8 @@
 // Methods of generating motions. Trainer, scoring, `generate`, `model`, sweep and report know them through this header alone.
 //
 // To add a method called NAME:
-//   1. a folder model/generators/NAME/, namespace actformer::model, with its networks (model/nn has weights with spectral
-//      norms, fused layers and optimisers), a Learner (model/train/learner.hpp) and a Maker (below);
+//   1. a folder model/generators/NAME/, whose names begin with the method's or live in a namespace of it, with its networks
+//      (model/nn has weights with spectral norms, fused layers and optimisers), a Learner (model/train/learner.hpp) and a Maker (below);
 //   2. NAME/method.hpp, which declares `Method NAME_method();`, and NAME/method.cpp, which fills in the members of Method;
 //   3. one #include and one line in methods.cpp;
 //   4. a configuration in model/configs with the line `model: NAME`;

@@ -10,16 +10,17 @@ namespace {
 
 constexpr std::int64_t person_heads = 8, last_padding = 1;
 
-DiscriminatorSettings checked(DiscriminatorSettings settings) {
+ActFormerDiscriminatorSettings checked(ActFormerDiscriminatorSettings settings) {
     check(settings);
     return settings;
 }
 
 }  // namespace
 
-Discriminator::Discriminator(DiscriminatorSettings settings, std::uint64_t seed, at::ScalarType type)
+ActFormerDiscriminator::ActFormerDiscriminator(ActFormerDiscriminatorSettings settings, std::uint64_t seed,
+                                               at::ScalarType type)
     : settings_(checked(std::move(settings))),
-      weights_(*this, discriminator_weights(settings_), seed, type),
+      weights_(*this, actformer_discriminator_weights(settings_), seed, type),
       convolutions_(node_convolutions(settings_)) {
     if (settings_.joint_gain > 0) joints_.emplace(settings_.motions);
     for (const auto& conv : convolutions_) {
@@ -35,7 +36,7 @@ Discriminator::Discriminator(DiscriminatorSettings settings, std::uint64_t seed,
 }
 
 /// x (N, C, K, T): the nodes' own convolutions as groups of one, then the sums into output nodes.
-at::Tensor Discriminator::convolved(const at::Tensor& x, std::size_t i) const {
+at::Tensor ActFormerDiscriminator::convolved(const at::Tensor& x, std::size_t i) const {
     const auto& conv = convolutions_[i];
     const auto name = fmt::format("convs.{}.", i);
     const auto n = x.size(0), in = x.size(1), nodes = x.size(2), t = x.size(3);
@@ -53,7 +54,7 @@ at::Tensor Discriminator::convolved(const at::Tensor& x, std::size_t i) const {
 
 /// Motions (N, C, T, K) with their differences over frames behind their channels, and behind those their joints' velocities, 0 in the
 /// first frame and at nodes of no joint; each times its gain.
-at::Tensor Discriminator::seen(const at::Tensor& motion) const {
+at::Tensor ActFormerDiscriminator::seen(const at::Tensor& motion) const {
     std::vector<at::Tensor> all{settings_.pose_gain == 1 ? motion : motion * settings_.pose_gain};
     auto moved = motion;
     for (std::int64_t i = 1; i <= settings_.differences; ++i)
@@ -66,7 +67,7 @@ at::Tensor Discriminator::seen(const at::Tensor& motion) const {
 }
 
 /// (N, features) of motions (N, C, T, K).
-at::Tensor Discriminator::features(const at::Tensor& motion) const {
+at::Tensor ActFormerDiscriminator::features(const at::Tensor& motion) const {
     if (takes_fused_path(motion)) return fused_features(motion);
     auto x = seen(motion).transpose(2, 3);
     for (std::size_t i = 0; i < convolutions_.size(); ++i) x = convolved(x, i);
@@ -77,7 +78,7 @@ at::Tensor Discriminator::features(const at::Tensor& motion) const {
 }
 
 /// What the biases of the groups add up to at each output node, (outputs, out); undefined without biases.
-at::Tensor Discriminator::node_bias(std::size_t i) const {
+at::Tensor ActFormerDiscriminator::node_bias(std::size_t i) const {
     const auto& conv = convolutions_[i];
     if (!conv.bias) return {};
     const std::int64_t outputs = conv.sums.outputs, groups = std::int64_t{conv.sums.inputs} * conv.sums.hops;
@@ -87,7 +88,7 @@ at::Tensor Discriminator::node_bias(std::size_t i) const {
         .matmul(weights_.at(fmt::format("convs.{}.bias", i)).view({groups, conv.out}));
 }
 
-at::Tensor Discriminator::fused_features(const at::Tensor& motion) const {
+at::Tensor ActFormerDiscriminator::fused_features(const at::Tensor& motion) const {
     const bool as_published = settings_.differences == 1 && settings_.pose_gain == 1 &&
                               settings_.difference_gain == 1 && settings_.joint_gain == 0;
     auto x = as_published ? fused_motion_input(motion.contiguous(), convolutions_[0].padding)
@@ -128,7 +129,7 @@ at::Tensor Discriminator::fused_features(const at::Tensor& motion) const {
 }
 
 /// (N, P, features) -> (N, features)
-at::Tensor Discriminator::pooled(const at::Tensor& features) const {
+at::Tensor ActFormerDiscriminator::pooled(const at::Tensor& features) const {
     if (settings_.persons_in == PersonsInD::avgpool) return features.mean(1);
     if (settings_.persons_in == PersonsInD::maxpool) return features.amax({1});
     const auto interaction = self_attention(features, weights_.layer("persons.qkv", is_training()),
@@ -136,7 +137,7 @@ at::Tensor Discriminator::pooled(const at::Tensor& features) const {
     return (features + interaction).mean(1);
 }
 
-at::Tensor Discriminator::forward(const at::Tensor& motion, const at::Tensor& labels) {
+at::Tensor ActFormerDiscriminator::forward(const at::Tensor& motion, const at::Tensor& labels) {
     const std::int64_t persons = settings_.persons, numbers = settings_.numbers, nodes = settings_.nodes();
     if (motion.dim() != 4 || motion.size(1) != persons * numbers || motion.size(3) != nodes ||
         labels.dim() != 1 || labels.size(0) != motion.size(0))

@@ -8,17 +8,18 @@
 
 namespace actformer::model {
 
-class Discriminator : public GanDiscriminator {
+class ActFormerDiscriminator : public GanDiscriminator {
   public:
     /// Weights start at random from `seed`, alike on every device; to(device) moves them. `type` is at::kFloat, or
     /// at::kDouble for checks. Throws Error for settings of no network.
-    Discriminator(DiscriminatorSettings settings, std::uint64_t seed, at::ScalarType type = at::kFloat);
+    ActFormerDiscriminator(ActFormerDiscriminatorSettings settings, std::uint64_t seed,
+                           at::ScalarType type = at::kFloat);
 
     /// motion (N, P*D, T, K), labels (N) int64 -> scores (N), the higher the more real. At least fewest_frames frames; throws
     /// Error below. In training mode one power iteration moves every spectral norm: give real and generated motions together.
     at::Tensor forward(const at::Tensor& motion, const at::Tensor& labels) override;
 
-    const DiscriminatorSettings& settings() const { return settings_; }
+    const ActFormerDiscriminatorSettings& settings() const { return settings_; }
     const WeightStore& weights() const { return weights_; }
 
     /// Whether processors take the path of our own (the default), or libtorch's operators as on a GPU.
@@ -33,7 +34,7 @@ class Discriminator : public GanDiscriminator {
     at::Tensor node_bias(std::size_t i) const;
     at::Tensor pooled(const at::Tensor& features) const;
 
-    DiscriminatorSettings settings_;
+    ActFormerDiscriminatorSettings settings_;
     std::optional<JointPositions> joints_;  ///< where it sees their velocities
     WeightStore weights_;
     std::vector<NodeConvolution> convolutions_;

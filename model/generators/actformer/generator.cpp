@@ -33,15 +33,17 @@ at::Tensor means(const at::Tensor& weights) {
     return weights / weights.sum(1, true);
 }
 
-GeneratorSettings checked(GeneratorSettings settings) {
+ActFormerGeneratorSettings checked(ActFormerGeneratorSettings settings) {
     check(settings);
     return settings;
 }
 
 }  // namespace
 
-Generator::Generator(GeneratorSettings settings, std::uint64_t seed, at::ScalarType type)
-    : settings_(checked(std::move(settings))), weights_(*this, generator_weights(settings_), seed, type) {
+ActFormerGenerator::ActFormerGenerator(ActFormerGeneratorSettings settings, std::uint64_t seed,
+                                       at::ScalarType type)
+    : settings_(checked(std::move(settings))),
+      weights_(*this, actformer_generator_weights(settings_), seed, type) {
     if (settings_.body == Body::transformer) return;
     const auto levels = skeleton_levels(settings_.parents);
     to_middle_ = register_buffer("to_middle",
@@ -53,7 +55,7 @@ Generator::Generator(GeneratorSettings settings, std::uint64_t seed, at::ScalarT
 }
 
 /// (T+1, P, W) of the table.
-at::Tensor Generator::positions() const {
+at::Tensor ActFormerGenerator::positions() const {
     if (settings_.positions != Positions::concat || settings_.tokens_a_frame() == 1)
         return weights_.at("positions");
     const auto &frames = weights_.at("frame_positions"), &persons = weights_.at("person_positions");
@@ -62,13 +64,13 @@ at::Tensor Generator::positions() const {
 }
 
 /// Latents as tokens take them: where all persons share a token, so do their draws, side by side.
-at::Tensor Generator::per_token(const at::Tensor& latent) const {
+at::Tensor ActFormerGenerator::per_token(const at::Tensor& latent) const {
     if (settings_.interaction == Interaction::iformer) return latent.contiguous();
     return latent.permute({0, 2, 1, 3}).reshape({latent.size(0), 1, latent.size(2), -1}).contiguous();
 }
 
 /// (N, P, T+1, W): the class first, then the frames, each with its position.
-at::Tensor Generator::tokens(const at::Tensor& latent, const at::Tensor& labels) const {
+at::Tensor ActFormerGenerator::tokens(const at::Tensor& latent, const at::Tensor& labels) const {
     const auto n = latent.size(0), t = latent.size(2), persons = std::int64_t{settings_.tokens_a_frame()};
     const auto frames = linear(per_token(latent), "input");
     const auto classes = weights_.at("classes.weight").index_select(0, labels).view({n, 1, 1, -1});
@@ -78,7 +80,7 @@ at::Tensor Generator::tokens(const at::Tensor& latent, const at::Tensor& labels)
 }
 
 /// x (sequences, tokens, W).
-at::Tensor Generator::block(const at::Tensor& x, const std::string& prefix) const {
+at::Tensor ActFormerGenerator::block(const at::Tensor& x, const std::string& prefix) const {
     const auto norm = [&](const at::Tensor& v, const std::string& name) {
         return at::layer_norm(v, {settings_.width}, weights_.at(prefix + name + ".weight"),
                               weights_.at(prefix + name + ".bias"), norm_epsilon);
@@ -88,7 +90,7 @@ at::Tensor Generator::block(const at::Tensor& x, const std::string& prefix) cons
     return y + linear(at::gelu(linear(norm(y, "norm2"), prefix + "up")), prefix + "down");
 }
 
-at::Tensor Generator::transformed(at::Tensor x) const {
+at::Tensor ActFormerGenerator::transformed(at::Tensor x) const {
     const auto n = x.size(0), streams = x.size(1), tokens = x.size(2);
     const auto blocks = interacting_blocks(settings_);
     for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -101,14 +103,14 @@ at::Tensor Generator::transformed(at::Tensor x) const {
     return x;
 }
 
-at::Tensor Generator::fused_tokens(const at::Tensor& latent, const at::Tensor& labels) const {
+at::Tensor ActFormerGenerator::fused_tokens(const at::Tensor& latent, const at::Tensor& labels) const {
     const auto z = per_token(latent);
     return fused_embedding(z, weights_.layer("input", is_training()),
                            weights_.at("classes.weight").index_select(0, labels),
                            positions().slice(0, 0, z.size(2) + 1).contiguous());
 }
 
-at::Tensor Generator::fused_transformed(at::Tensor x) const {
+at::Tensor ActFormerGenerator::fused_transformed(at::Tensor x) const {
     const auto blocks = interacting_blocks(settings_);
     for (std::size_t i = 0; i < blocks.size(); ++i) {
         const auto layer = [&](const char* name) {
@@ -129,7 +131,7 @@ at::Tensor Generator::fused_transformed(at::Tensor x) const {
 /// x (N, S, T+1, W): every frame's token becomes its neighbours' mean, weighed by a Gaussian up to four deviations away. What
 /// follows takes frames one by one, and can give no smoother motion than its tokens are. The class's token, the first, has been
 /// of use before.
-at::Tensor Generator::smoothed(const at::Tensor& x) const {
+at::Tensor ActFormerGenerator::smoothed(const at::Tensor& x) const {
     if (settings_.smooth == 0) return x;
     const auto weights = gaussians(x.size(2), 0, settings_.smooth, x.options());
     weights.select(1, 0).zero_();
@@ -137,7 +139,7 @@ at::Tensor Generator::smoothed(const at::Tensor& x) const {
 }
 
 /// x (N, S, T+1, W), S the tokens a frame.
-at::Tensor Generator::motion(const at::Tensor& x) const {
+at::Tensor ActFormerGenerator::motion(const at::Tensor& x) const {
     if (takes_fused_path(x) && settings_.body == Body::transformer &&
         settings_.tokens_a_frame() == settings_.persons)
         return fused_poses(x, weights_.layer("norm", is_training()), weights_.layer("head", is_training()),
@@ -153,7 +155,7 @@ at::Tensor Generator::motion(const at::Tensor& x) const {
 
 /// `motion` (N, P*D, T, K) with each body moved to where its neighbouring frames' mean is, weighed by a Gaussian. At either end the path
 /// goes on as its point reflection, so that a straight one stays as it is.
-at::Tensor Generator::with_smooth_root(const at::Tensor& motion) const {
+at::Tensor ActFormerGenerator::with_smooth_root(const at::Tensor& motion) const {
     const auto t = motion.size(2);
     if (settings_.smooth_root == 0 || t < 2) return motion;
     const std::int64_t persons = settings_.persons, nodes = settings_.nodes();
@@ -173,8 +175,8 @@ at::Tensor Generator::with_smooth_root(const at::Tensor& motion) const {
 
 /// x (N, T, nodes, in): every hop's linear map, then the fixed sums over nodes. Spectral norms and sums make numbers smaller layer
 /// by layer, until biases are all that is left: each node's are brought back to deviation 1.
-at::Tensor Generator::graph_layer(const at::Tensor& x, const std::string& name,
-                                  const at::Tensor& sums) const {
+at::Tensor ActFormerGenerator::graph_layer(const at::Tensor& x, const std::string& name,
+                                           const at::Tensor& sums) const {
     const auto n = x.size(0), t = x.size(1), nodes = x.size(2);
     const auto mapped =
         linear(x, name).view({n, t, nodes, 2, -1}).transpose(2, 3);  // (N, T, hops, nodes, out)
@@ -183,7 +185,7 @@ at::Tensor Generator::graph_layer(const at::Tensor& x, const std::string& name,
 }
 
 /// x (N, S, T, W), S the tokens a frame -> (N, P, T, K, D).
-at::Tensor Generator::poses(const at::Tensor& x) const {
+at::Tensor ActFormerGenerator::poses(const at::Tensor& x) const {
     const auto n = x.size(0), streams = x.size(1), t = x.size(2), parting = settings_.persons / streams;
     const std::int64_t nodes = settings_.nodes(), numbers = settings_.numbers();
     const auto part = [&](const at::Tensor& v, std::int64_t of_each) {  // persons out of the last axis
@@ -204,19 +206,19 @@ at::Tensor Generator::poses(const at::Tensor& x) const {
 }
 
 /// What the representation makes of the head's numbers (N, P, T, K, D), bent by tanh; the free node keeps its position.
-at::Tensor Generator::finished(const at::Tensor& poses) const {
+at::Tensor ActFormerGenerator::finished(const at::Tensor& poses) const {
     const auto& how = settings_.representation;
     if (how.finish() == ingest::Finish::linear) return poses;
     return with_position(normalised(poses.tanh(), how.finish()), poses, how);
 }
 
 /// The EMA's singular vectors are close to those of the last weights: a few power iterations from there find them.
-void Generator::recompute_buffers(const Prior& /*prior*/, std::int64_t /*frames*/) {
-    for (const auto& weight : generator_weights(settings_))
+void ActFormerGenerator::recompute_buffers(const Prior& /*prior*/, std::int64_t /*frames*/) {
+    for (const auto& weight : actformer_generator_weights(settings_))
         for (int i = 0; weight.spectral && i < 10; ++i) weights_.normalised(weight.name, true);
 }
 
-at::Tensor Generator::forward(const at::Tensor& latent, const at::Tensor& labels) {
+at::Tensor ActFormerGenerator::forward(const at::Tensor& latent, const at::Tensor& labels) {
     const auto n = latent.size(0), t = latent.size(2);
     if (latent.dim() != 4 || latent.size(1) != settings_.prior.streams ||
         latent.size(3) != settings_.prior.channels || t < 1 || labels.dim() != 1 || labels.size(0) != n)

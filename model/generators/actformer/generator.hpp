@@ -7,11 +7,12 @@
 
 namespace actformer::model {
 
-class Generator : public GanGenerator {
+class ActFormerGenerator : public GanGenerator {
   public:
     /// Weights start at random from `seed`, alike on every device; to(device) moves them. `type` is at::kFloat, or
     /// at::kDouble for checks. Throws Error for settings of no network.
-    Generator(GeneratorSettings settings, std::uint64_t seed, at::ScalarType type = at::kFloat);
+    ActFormerGenerator(ActFormerGeneratorSettings settings, std::uint64_t seed,
+                       at::ScalarType type = at::kFloat);
 
     /// latent (N, streams, T, channels) of Prior::draw, labels (N) int64 -> motion (N, P*D, T, K), person by person. T up to
     /// settings().frames; Throws Error beyond. In training mode one power iteration moves every spectral norm.
@@ -24,7 +25,7 @@ class Generator : public GanGenerator {
     }
     void recompute_buffers(const Prior& prior, std::int64_t frames) override;
 
-    const GeneratorSettings& settings() const { return settings_; }
+    const ActFormerGeneratorSettings& settings() const { return settings_; }
     const WeightStore& weights() const { return weights_; }
 
     /// Whether processors take the path of our own (the default), or libtorch's operators as on a GPU.
@@ -49,7 +50,7 @@ class Generator : public GanGenerator {
     at::Tensor finished(const at::Tensor& poses) const;
     at::Tensor graph_layer(const at::Tensor& x, const std::string& name, const at::Tensor& sums) const;
 
-    GeneratorSettings settings_;
+    ActFormerGeneratorSettings settings_;
     WeightStore weights_;
     at::Tensor to_middle_, to_fine_, within_fine_;  ///< (hops, out, in) of a graphconv body
 };

@@ -34,7 +34,7 @@ class List {
     std::vector<NetworkWeight> list_;
 };
 
-void add_positions(List& list, const GeneratorSettings& s) {
+void add_positions(List& list, const ActFormerGeneratorSettings& s) {
     const std::int64_t tokens = s.frames + 1, persons = s.tokens_a_frame(), width = s.width;
     const bool trained = s.positions != Positions::fixed;
     // Numbers that all start on their own are what `independent` is about.
@@ -54,7 +54,7 @@ void add_positions(List& list, const GeneratorSettings& s) {
     table("positions", {tokens, persons, width}, init);
 }
 
-void add_block(List& list, const std::string& prefix, const GeneratorSettings& s) {
+void add_block(List& list, const std::string& prefix, const ActFormerGeneratorSettings& s) {
     const std::int64_t width = s.width, hidden = s.hidden();
     list.norm(prefix + "norm1", width, false);
     list.linear(prefix + "qkv", 3 * width, width);
@@ -64,11 +64,11 @@ void add_block(List& list, const std::string& prefix, const GeneratorSettings& s
     list.linear(prefix + "down", width, hidden);
 }
 
-std::int64_t persons_a_token(const GeneratorSettings& s) {
+std::int64_t persons_a_token(const ActFormerGeneratorSettings& s) {
     return s.persons / s.tokens_a_frame();
 }
 
-void add_head(List& list, const GeneratorSettings& s) {
+void add_head(List& list, const ActFormerGeneratorSettings& s) {
     const std::int64_t parting = persons_a_token(s);
     if (s.body == Body::transformer) return list.linear("head", parting * s.nodes() * s.numbers(), s.width);
     const GraphBody channels;
@@ -99,7 +99,7 @@ std::string layer_name(std::size_t i) {
 
 }  // namespace
 
-std::vector<bool> interacting_blocks(const GeneratorSettings& settings) {
+std::vector<bool> interacting_blocks(const ActFormerGeneratorSettings& settings) {
     std::vector<bool> blocks;
     for (std::uint32_t i = 0; i < settings.depth; ++i) {
         if (settings.tokens_a_frame() > 1) blocks.push_back(true);
@@ -108,7 +108,7 @@ std::vector<bool> interacting_blocks(const GeneratorSettings& settings) {
     return blocks;
 }
 
-std::vector<NetworkWeight> generator_weights(const GeneratorSettings& s) {
+std::vector<NetworkWeight> actformer_generator_weights(const ActFormerGeneratorSettings& s) {
     List list;
     const auto streams = s.interaction == Interaction::concat ? s.prior.streams : 1;
     list.linear("input", s.width, std::int64_t{streams} * s.prior.channels);
@@ -121,7 +121,7 @@ std::vector<NetworkWeight> generator_weights(const GeneratorSettings& s) {
     return list.take();
 }
 
-std::vector<NodeConvolution> node_convolutions(const DiscriminatorSettings& s) {
+std::vector<NodeConvolution> node_convolutions(const ActFormerDiscriminatorSettings& s) {
     const auto levels = skeleton_levels(s.parents);
     const auto seen = s.persons_in == PersonsInD::concat ? s.persons : 1;
     const auto c = s.width;
@@ -133,7 +133,7 @@ std::vector<NodeConvolution> node_convolutions(const DiscriminatorSettings& s) {
             {4 * c, 8 * c, 4, 2, 1, false, hop_matrix(levels.coarse, all_nodes(levels.coarse))}};
 }
 
-std::vector<NetworkWeight> discriminator_weights(const DiscriminatorSettings& s) {
+std::vector<NetworkWeight> actformer_discriminator_weights(const ActFormerDiscriminatorSettings& s) {
     List list;
     const auto convolutions = node_convolutions(s);
     for (std::size_t i = 0; i < convolutions.size(); ++i) {
@@ -154,8 +154,9 @@ std::vector<NetworkWeight> discriminator_weights(const DiscriminatorSettings& s)
     return list.take();
 }
 
-std::vector<SummaryLine> generator_summary(const GeneratorSettings& s, std::uint32_t frames) {
-    const auto weights = generator_weights(s);
+std::vector<SummaryLine> actformer_generator_summary(const ActFormerGeneratorSettings& s,
+                                                     std::uint32_t frames) {
+    const auto weights = actformer_generator_weights(s);
     const std::int64_t t = frames, persons = s.tokens_a_frame();
     const std::vector<std::int64_t> tokens{persons, t + 1, s.width};
     std::vector<SummaryLine> lines;
@@ -194,8 +195,9 @@ std::vector<SummaryLine> generator_summary(const GeneratorSettings& s, std::uint
     return lines;
 }
 
-std::vector<SummaryLine> discriminator_summary(const DiscriminatorSettings& s, std::uint32_t frames) {
-    const auto weights = discriminator_weights(s);
+std::vector<SummaryLine> actformer_discriminator_summary(const ActFormerDiscriminatorSettings& s,
+                                                         std::uint32_t frames) {
+    const auto weights = actformer_discriminator_weights(s);
     const auto under = [&](const std::string& name) { return trained_count(weights, name + "."); };
     const auto convolutions = node_convolutions(s);
     std::vector<SummaryLine> lines;

@@ -24,7 +24,7 @@ struct NodeConvolution {
 };
 
 /// Those before the last, full convolution.
-std::vector<NodeConvolution> node_convolutions(const DiscriminatorSettings& settings);
+std::vector<NodeConvolution> node_convolutions(const ActFormerDiscriminatorSettings& settings);
 
 /// The last convolution takes all nodes and 4 frames at a stride of 2, padded by 1: a weight (features, nodes, taps, in).
 constexpr std::uint32_t last_taps = 4;
@@ -34,14 +34,16 @@ struct GraphBody {
     std::uint32_t coarse = 128, middle = 64, fine = 32;
 };
 
-std::vector<NetworkWeight> generator_weights(const GeneratorSettings& settings);
-std::vector<NetworkWeight> discriminator_weights(const DiscriminatorSettings& settings);
+std::vector<NetworkWeight> actformer_generator_weights(const ActFormerGeneratorSettings& settings);
+std::vector<NetworkWeight> actformer_discriminator_weights(const ActFormerDiscriminatorSettings& settings);
 
 /// Transformer blocks in order: true for an I-Former, false for a T-Former.
-std::vector<bool> interacting_blocks(const GeneratorSettings& settings);
+std::vector<bool> interacting_blocks(const ActFormerGeneratorSettings& settings);
 
 /// Lines for `actformer model`; shapes are of one motion of `frames` frames.
-std::vector<SummaryLine> generator_summary(const GeneratorSettings& settings, std::uint32_t frames);
-std::vector<SummaryLine> discriminator_summary(const DiscriminatorSettings& settings, std::uint32_t frames);
+std::vector<SummaryLine> actformer_generator_summary(const ActFormerGeneratorSettings& settings,
+                                                     std::uint32_t frames);
+std::vector<SummaryLine> actformer_discriminator_summary(const ActFormerDiscriminatorSettings& settings,
+                                                         std::uint32_t frames);
 
 }  // namespace actformer::model

@@ -13,8 +13,8 @@ namespace {
 
 /// What a configuration says of both networks; `persons` and `classes` are 0 where it leaves them to the dataset.
 struct Networks {
-    GeneratorSettings g;
-    DiscriminatorSettings d;
+    ActFormerGeneratorSettings g;
+    ActFormerDiscriminatorSettings d;
     std::uint32_t persons = 0, classes = 0;
     bool shared_z = true;
 };
@@ -138,11 +138,11 @@ void check_motion(const char* network, std::uint32_t nodes, std::uint32_t person
 
 }  // namespace
 
-std::uint32_t GeneratorSettings::hidden() const {
+std::uint32_t ActFormerGeneratorSettings::hidden() const {
     return static_cast<std::uint32_t>(std::lround(width * mlp_ratio));
 }
 
-void check(const GeneratorSettings& s) {
+void check(const ActFormerGeneratorSettings& s) {
     check_motion("generator", s.nodes(), s.persons, s.classes);
     if (s.heads == 0 || s.width == 0 || s.width % s.heads != 0)
         throw Error("generator: heads: {} do not divide width: {}; as in width: {}", s.heads, s.width,
@@ -158,17 +158,17 @@ void check(const GeneratorSettings& s) {
     if (!(s.smooth_root >= 0)) throw Error("generator: smooth_root: {} frames; 0 or more", s.smooth_root);
 }
 
-void check(const DiscriminatorSettings& s) {
+void check(const ActFormerDiscriminatorSettings& s) {
     check_motion("discriminator", s.nodes(), s.persons, s.classes);
     if (s.numbers == 0) throw Error("discriminator: a node must have numbers");
     if (s.width == 0) throw Error("discriminator: d_width must not be 0");
 }
 
-std::vector<Key> network_keys() {
+std::vector<Key> actformer_keys() {
     return network_table().keys();
 }
 
-GeneratorSettings generator_settings(const Config& config, const MotionSpec& spec) {
+ActFormerGeneratorSettings actformer_generator_settings(const Config& config, const MotionSpec& spec) {
     check_subjects(config, spec.persons, spec.classes, spec.where);
     const auto networks = network_table().read(config);
     auto s = networks.g;
@@ -181,7 +181,8 @@ GeneratorSettings generator_settings(const Config& config, const MotionSpec& spe
     return s;
 }
 
-DiscriminatorSettings discriminator_settings(const Config& config, const MotionSpec& spec) {
+ActFormerDiscriminatorSettings actformer_discriminator_settings(const Config& config,
+                                                                const MotionSpec& spec) {
     check_subjects(config, spec.persons, spec.classes, spec.where);
     auto s = network_table().read(config).d;
     s.parents = spec.representation.node_parents(spec.topology);

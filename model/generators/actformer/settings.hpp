@@ -34,7 +34,7 @@ enum class Body {
     graphconv     ///< a frame's token becomes the coarse graph; graph convolutions upsample it to the nodes
 };
 
-struct GeneratorSettings {
+struct ActFormerGeneratorSettings {
     std::vector<int> parents;  ///< of the nodes of the representation, -1 for the root
     ingest::Representation representation;
     std::uint32_t persons = 1, classes = 0;
@@ -55,7 +55,7 @@ struct GeneratorSettings {
     std::uint32_t hidden() const;                                       ///< width of the blocks' inner layer
     /// Persons that have tokens of their own: 1 where all share one.
     std::uint32_t tokens_a_frame() const { return interaction == Interaction::concat ? 1 : persons; }
-    bool operator==(const GeneratorSettings&) const = default;
+    bool operator==(const ActFormerGeneratorSettings&) const = default;
 };
 
 enum class PersonsInD {
@@ -65,7 +65,7 @@ enum class PersonsInD {
     selfatt   ///< their features' mean behind an attention over the persons
 };
 
-struct DiscriminatorSettings {
+struct ActFormerDiscriminatorSettings {
     std::vector<int> parents;  ///< as the generator's
     std::uint32_t persons = 1, classes = 0;
     std::uint32_t numbers = 3;  ///< of a node
@@ -86,15 +86,15 @@ struct DiscriminatorSettings {
 constexpr std::uint32_t fewest_frames = 16;
 
 /// Throw Error where the settings describe no network.
-void check(const GeneratorSettings& settings);
-void check(const DiscriminatorSettings& settings);
+void check(const ActFormerGeneratorSettings& settings);
+void check(const ActFormerDiscriminatorSettings& settings);
 
 /// The configuration's keys that decide on the networks, with the paper's values.
-std::vector<Key> network_keys();
+std::vector<Key> actformer_keys();
 
-/// The networks of a configuration that holds network_keys(). Throw Error where the configuration asks for other persons or classes, or
+/// The networks of a configuration that holds actformer_keys(). Throw Error where the configuration asks for other persons or classes, or
 /// for what cannot be built (heads that do not divide the width).
-GeneratorSettings generator_settings(const Config& config, const MotionSpec& spec);
-DiscriminatorSettings discriminator_settings(const Config& config, const MotionSpec& spec);
+ActFormerGeneratorSettings actformer_generator_settings(const Config& config, const MotionSpec& spec);
+ActFormerDiscriminatorSettings actformer_discriminator_settings(const Config& config, const MotionSpec& spec);
 
 }  // namespace actformer::model

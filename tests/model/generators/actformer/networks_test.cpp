@@ -27,8 +27,8 @@ const std::vector<int> ntu(ingest::ntu25_parents.begin(), ingest::ntu25_parents.
 /// Eight joints: a trunk, two arms and a leg.
 const std::vector<int> small_tree{-1, 0, 1, 1, 3, 1, 5, 0};
 
-GeneratorSettings tiny_generator(std::uint32_t persons) {
-    GeneratorSettings s;
+ActFormerGeneratorSettings tiny_generator(std::uint32_t persons) {
+    ActFormerGeneratorSettings s;
     s.parents = small_tree;
     s.persons = persons;
     s.classes = 5;
@@ -41,8 +41,8 @@ GeneratorSettings tiny_generator(std::uint32_t persons) {
     return s;
 }
 
-DiscriminatorSettings tiny_discriminator(std::uint32_t persons) {
-    DiscriminatorSettings s;
+ActFormerDiscriminatorSettings tiny_discriminator(std::uint32_t persons) {
+    ActFormerDiscriminatorSettings s;
     s.parents = small_tree;
     s.persons = persons;
     s.classes = 5;
@@ -52,8 +52,8 @@ DiscriminatorSettings tiny_discriminator(std::uint32_t persons) {
 
 /// A generator and a discriminator for the same motions.
 struct Networks {
-    GeneratorSettings g;
-    DiscriminatorSettings d;
+    ActFormerGeneratorSettings g;
+    ActFormerDiscriminatorSettings d;
 };
 
 /// The discriminator sees joints of bodies that no other has.
@@ -156,11 +156,11 @@ std::vector<Networks> switched() {
     return all;
 }
 
-at::Tensor random_latent(const GeneratorSettings& s, std::int64_t samples, std::int64_t frames) {
+at::Tensor random_latent(const ActFormerGeneratorSettings& s, std::int64_t samples, std::int64_t frames) {
     return at::randn({samples, s.prior.streams, frames, s.prior.channels});
 }
 
-at::Tensor random_motion(const DiscriminatorSettings& s, std::int64_t samples, std::int64_t frames) {
+at::Tensor random_motion(const ActFormerDiscriminatorSettings& s, std::int64_t samples, std::int64_t frames) {
     return at::randn({samples, s.persons * s.numbers, frames, s.nodes()});
 }
 
@@ -186,8 +186,8 @@ struct ActformerNetworks : testing::Test {
     ActformerNetworks() { at::manual_seed(11); }
 };
 
-GeneratorSettings paper_generator() {
-    GeneratorSettings s;
+ActFormerGeneratorSettings paper_generator() {
+    ActFormerGeneratorSettings s;
     s.parents = ntu;
     s.persons = 2;
     s.classes = 26;
@@ -195,8 +195,8 @@ GeneratorSettings paper_generator() {
     return s;
 }
 
-DiscriminatorSettings paper_discriminator() {
-    DiscriminatorSettings s;
+ActFormerDiscriminatorSettings paper_discriminator() {
+    ActFormerDiscriminatorSettings s;
     s.parents = ntu;
     s.persons = 2;
     s.classes = 26;
@@ -206,28 +206,31 @@ DiscriminatorSettings paper_discriminator() {
 }  // namespace
 
 TEST_F(ActformerNetworks, CountTheParametersOfTable6) {
-    EXPECT_EQ(trained_count(generator_weights(paper_generator())), 1'359'675);
-    EXPECT_EQ(trained_count(discriminator_weights(paper_discriminator())), 5'174'593);
+    EXPECT_EQ(trained_count(actformer_generator_weights(paper_generator())), 1'359'675);
+    EXPECT_EQ(trained_count(actformer_discriminator_weights(paper_discriminator())), 5'174'593);
     const auto trained = [](const torch::nn::Module& network) {
         std::int64_t sum = 0;
         for (const auto& weight : network.parameters()) sum += weight.numel();
         return sum;
     };
-    EXPECT_EQ(trained(Generator(paper_generator(), 0)), 1'359'675);
-    EXPECT_EQ(trained(Discriminator(paper_discriminator(), 0)), 5'174'593);
+    EXPECT_EQ(trained(ActFormerGenerator(paper_generator(), 0)), 1'359'675);
+    EXPECT_EQ(trained(ActFormerDiscriminator(paper_discriminator(), 0)), 5'174'593);
     const auto of_lines = [](const std::vector<SummaryLine>& lines) {
         std::int64_t sum = 0;
         for (const auto& line : lines) sum += line.parameters;
         return sum;
     };
     for (const auto& networks : switched()) {
-        EXPECT_EQ(of_lines(generator_summary(networks.g, 20)), trained(Generator(networks.g, 0)));
-        EXPECT_EQ(of_lines(discriminator_summary(networks.d, 20)), trained(Discriminator(networks.d, 0)));
+        EXPECT_EQ(of_lines(actformer_generator_summary(networks.g, 20)),
+                  trained(ActFormerGenerator(networks.g, 0)));
+        EXPECT_EQ(of_lines(actformer_discriminator_summary(networks.d, 20)),
+                  trained(ActFormerDiscriminator(networks.d, 0)));
     }
 }
 
 TEST_F(ActformerNetworks, StartAlikeForASeedAndNotForAnother) {
-    const Generator one(tiny_generator(2), 3), same(tiny_generator(2), 3), other(tiny_generator(2), 4);
+    const ActFormerGenerator one(tiny_generator(2), 3), same(tiny_generator(2), 3),
+        other(tiny_generator(2), 4);
     for (const auto& item : one.named_parameters()) {
         EXPECT_TRUE(item.value().equal(same.named_parameters()[item.key()])) << item.key();
         if (item.key().ends_with("bias") || item.key().find("norm") != std::string::npos) continue;
@@ -241,20 +244,20 @@ TEST_F(ActformerNetworks, LearntPositionsMayBeginAtTheFixedOnes) {
     for (const auto persons : {1U, 2U}) {
         auto settings = tiny_generator(persons);
         settings.positions = Positions::fixed;
-        const auto fixed = Generator(settings, 1).named_buffers()["positions"].clone();
+        const auto fixed = ActFormerGenerator(settings, 1).named_buffers()["positions"].clone();
         settings.positions_start = PositionsStart::sinusoids;
         settings.positions = Positions::tiled;
-        EXPECT_TRUE(Generator(settings, 1).named_parameters()["positions"].equal(fixed)) << persons;
+        EXPECT_TRUE(ActFormerGenerator(settings, 1).named_parameters()["positions"].equal(fixed)) << persons;
         settings.positions = Positions::independent;
-        EXPECT_FALSE(Generator(settings, 1).named_parameters()["positions"].equal(fixed))
+        EXPECT_FALSE(ActFormerGenerator(settings, 1).named_parameters()["positions"].equal(fixed))
             << "its numbers each start on their own";
     }
     auto settings = tiny_generator(2);
     settings.positions = Positions::fixed;
-    const auto fixed = Generator(settings, 1).named_buffers()["positions"].clone();  // (T + 1, P, W)
+    const auto fixed = ActFormerGenerator(settings, 1).named_buffers()["positions"].clone();  // (T + 1, P, W)
     settings.positions = Positions::concat;
     settings.positions_start = PositionsStart::sinusoids;
-    const Generator parted(settings, 1);
+    const ActFormerGenerator parted(settings, 1);
     const auto half = std::int64_t{settings.width} / 2;
     EXPECT_TRUE(parted.named_parameters()["frame_positions"].equal(fixed.select(1, 0).slice(1, 0, half)));
     EXPECT_TRUE(parted.named_parameters()["person_positions"].equal(fixed[1].slice(1, half)));
@@ -262,8 +265,8 @@ TEST_F(ActformerNetworks, LearntPositionsMayBeginAtTheFixedOnes) {
 
 TEST_F(ActformerNetworks, BothPathsAgreeForwardAndBack) {
     for (const auto& networks : switched()) {
-        Generator fused(networks.g, 1, at::kDouble), plain(networks.g, 1, at::kDouble);
-        Discriminator judge(networks.d, 2, at::kDouble), plain_judge(networks.d, 2, at::kDouble);
+        ActFormerGenerator fused(networks.g, 1, at::kDouble), plain(networks.g, 1, at::kDouble);
+        ActFormerDiscriminator judge(networks.d, 2, at::kDouble), plain_judge(networks.d, 2, at::kDouble);
         stir(fused);
         stir(judge);
         copy_weights(fused, plain);
@@ -297,8 +300,8 @@ TEST_F(ActformerNetworks, BothPathsAgreeForwardAndBack) {
 }
 
 TEST_F(ActformerNetworks, ThePapersSizeAgreesInFloat) {
-    Generator fused(paper_generator(), 1), plain(paper_generator(), 1);
-    Discriminator judge(paper_discriminator(), 2), plain_judge(paper_discriminator(), 2);
+    ActFormerGenerator fused(paper_generator(), 1), plain(paper_generator(), 1);
+    ActFormerDiscriminator judge(paper_discriminator(), 2), plain_judge(paper_discriminator(), 2);
     plain.set_fused(false);
     plain_judge.set_fused(false);
     const auto latent = random_latent(paper_generator(), 3, 60);
@@ -319,14 +322,15 @@ TEST_F(ActformerNetworks, ThePapersSizeAgreesInFloat) {
 TEST_F(ActformerNetworks, GeneratedLimbsAndRotationsAreUnitVectors) {
     auto settings = tiny_generator(2);
     const at::NoGradGuard no_gradients;
-    const auto limbs = Generator(settings, 1).forward(random_latent(settings, 3, 9), some_labels(3));
+    const auto limbs = ActFormerGenerator(settings, 1).forward(random_latent(settings, 3, 9), some_labels(3));
     EXPECT_EQ(limbs.sizes().vec(), (std::vector<std::int64_t>{3, 6, 9, 8}));
     const auto lengths = limbs.view({3, 2, 3, 9, 8}).norm(2, {2}).slice(3, 1);
     EXPECT_GT(lengths.min().item<double>(), 0.9);
     EXPECT_LE(lengths.max().item<double>(), 1 + 1e-6);
 
     settings.representation = ingest::Representation::rot6d;
-    const auto rotations = Generator(settings, 1).forward(random_latent(settings, 3, 9), some_labels(3));
+    const auto rotations =
+        ActFormerGenerator(settings, 1).forward(random_latent(settings, 3, 9), some_labels(3));
     const auto six = rotations.view({3, 2, 6, 9, 8}).slice(4, 0, 7);
     const auto a = six.slice(2, 0, 3), b = six.slice(2, 3, 6);
     expect_near(a.norm(2, {2}), at::ones({3, 2, 9, 7}), 1e-5);
@@ -338,8 +342,8 @@ TEST_F(ActformerNetworks, GeneratedLimbsAndRotationsAreUnitVectors) {
 }
 
 TEST_F(ActformerNetworks, SpectralNormsAreTheSvdsAfterManySteps) {
-    Generator g(tiny_generator(2), 1);
-    Discriminator d(tiny_discriminator(2), 2);
+    ActFormerGenerator g(tiny_generator(2), 1);
+    ActFormerDiscriminator d(tiny_discriminator(2), 2);
     const at::NoGradGuard no_gradients;
     const auto latent = random_latent(g.settings(), 2, 16);
     // Power iterations take their time where the two largest singular values are near each other.
@@ -359,13 +363,13 @@ TEST_F(ActformerNetworks, SpectralNormsAreTheSvdsAfterManySteps) {
         }
         return spectral;
     };
-    EXPECT_EQ(check(g.weights(), generator_weights(g.settings())), 1 + 4 * 4 + 2);
-    EXPECT_EQ(check(d.weights(), discriminator_weights(d.settings())), 5 + 2);
+    EXPECT_EQ(check(g.weights(), actformer_generator_weights(g.settings())), 1 + 4 * 4 + 2);
+    EXPECT_EQ(check(d.weights(), actformer_discriminator_weights(d.settings())), 5 + 2);
 }
 
 TEST_F(ActformerNetworks, EvaluationMovesNothing) {
-    Generator g(tiny_generator(2), 1);
-    Discriminator d(tiny_discriminator(2), 2);
+    ActFormerGenerator g(tiny_generator(2), 1);
+    ActFormerDiscriminator d(tiny_discriminator(2), 2);
     g.eval();
     d.eval();
     std::vector<at::Tensor> before;
@@ -379,8 +383,8 @@ TEST_F(ActformerNetworks, EvaluationMovesNothing) {
 }
 
 TEST_F(ActformerNetworks, RefuseWhatTheyCannotTake) {
-    Generator g(tiny_generator(2), 1);
-    Discriminator d(tiny_discriminator(2), 2);
+    ActFormerGenerator g(tiny_generator(2), 1);
+    ActFormerDiscriminator d(tiny_discriminator(2), 2);
     EXPECT_THROW(g.forward(random_latent(g.settings(), 2, 21), some_labels(2)), Error);
     EXPECT_THROW(g.forward(at::randn({2, 1, 16, 5}), some_labels(2)), Error);
     EXPECT_THROW(g.forward(random_latent(g.settings(), 2, 16), some_labels(3)), Error);
@@ -388,13 +392,13 @@ TEST_F(ActformerNetworks, RefuseWhatTheyCannotTake) {
     EXPECT_THROW(d.forward(random_motion(d.settings(), 2, 15), some_labels(2)), Error);
     EXPECT_THROW(d.forward(at::randn({2, 6, 16, 7}), some_labels(2)), Error);
     EXPECT_NO_THROW(d.forward(random_motion(d.settings(), 2, 16), some_labels(2)));
-    for (const auto& change : std::vector<std::function<void(GeneratorSettings&)>>{
+    for (const auto& change : std::vector<std::function<void(ActFormerGeneratorSettings&)>>{
              [](auto& s) { s.heads = 5; }, [](auto& s) { s.width = 0; }, [](auto& s) { s.parents = {-1}; },
              [](auto& s) { s.classes = 0; }, [](auto& s) { s.prior.streams = 3; },
              [](auto& s) { s.prior.length_scale = 0; }}) {
         auto settings = tiny_generator(2);
         change(settings);
-        EXPECT_THROW(Generator(settings, 0), Error);
+        EXPECT_THROW(ActFormerGenerator(settings, 0), Error);
     }
 }
 
@@ -409,8 +413,8 @@ TEST_F(ActformerNetworks, AgreeWithNumPy) {
     const char* bodies[] = {"transformer", "graphconv"};
     const char* persons_in[] = {"concat", "avgpool", "maxpool", "selfatt"};
     for (const auto& [gs, ds] : cases) {
-        Generator g(gs, 7);
-        Discriminator d(ds, 8);
+        ActFormerGenerator g(gs, 7);
+        ActFormerDiscriminator d(ds, 8);
         stir(g);
         stir(d);
         g.eval();

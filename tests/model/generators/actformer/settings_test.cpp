@@ -27,14 +27,14 @@ MotionSpec ntu_motions(std::uint32_t persons, std::size_t classes) {
 const std::string configs = source("model/configs/");
 
 Config with(const std::vector<std::string>& assignments) {
-    Config config("actformer", network_keys());
+    Config config("actformer", actformer_keys());
     for (const auto& assignment : assignments) config.override_with(assignment);
     return config;
 }
 
 /// All keys that an ActFormer's configuration may have.
 Config whole_config() {
-    auto keys = network_keys();
+    auto keys = actformer_keys();
     for (auto& key : gan_keys()) keys.push_back(std::move(key));
     for (auto& key : generator_keys()) keys.push_back(std::move(key));
     return {"actformer", keys};
@@ -44,8 +44,8 @@ void expect_refused(const std::vector<std::string>& assignments, std::uint32_t p
                     const std::vector<std::string>& words) {
     try {
         const auto config = with(assignments);
-        generator_settings(config, ntu_motions(persons, classes));
-        discriminator_settings(config, ntu_motions(persons, classes));
+        actformer_generator_settings(config, ntu_motions(persons, classes));
+        actformer_discriminator_settings(config, ntu_motions(persons, classes));
         ADD_FAILURE() << "taken";
     } catch (const Error& e) {
         for (const auto& word : words)
@@ -55,10 +55,10 @@ void expect_refused(const std::vector<std::string>& assignments, std::uint32_t p
 
 }  // namespace
 
-TEST(GeneratorSettings, SwitchesComeThrough) {
+TEST(ActFormerGeneratorSettings, SwitchesComeThrough) {
     const auto config = with({"prior=gaussian", "shared_z=false", "pe=independent", "interaction=concat",
                               "body=graphconv", "d_persons=selfatt", "d_width=16", "latent=32", "depth=3"});
-    const auto g = generator_settings(config, ntu_motions(2, 26));
+    const auto g = actformer_generator_settings(config, ntu_motions(2, 26));
     EXPECT_EQ(g.prior.kind, PriorKind::gaussian);
     EXPECT_EQ(g.prior.streams, 2U);
     EXPECT_EQ(g.prior.channels, 32U);
@@ -66,23 +66,23 @@ TEST(GeneratorSettings, SwitchesComeThrough) {
     EXPECT_EQ(g.interaction, Interaction::concat);
     EXPECT_EQ(g.body, Body::graphconv);
     EXPECT_EQ(interacting_blocks(g), (std::vector<bool>{false, false, false}));
-    const auto d = discriminator_settings(config, ntu_motions(2, 26));
+    const auto d = actformer_discriminator_settings(config, ntu_motions(2, 26));
     EXPECT_EQ(d.persons_in, PersonsInD::selfatt);
     EXPECT_EQ(d.features(), 256U);
 }
 
-TEST(GeneratorSettings, RotationsHaveANodeOfTranslationOnTheRoot) {
+TEST(ActFormerGeneratorSettings, RotationsHaveANodeOfTranslationOnTheRoot) {
     const ingest::Topology tree{{"root", "arm", "hand"}, {-1, 0, 1}};
     const MotionSpec rotations{ingest::Representation::rot6d, tree, 2, 26, "smpl"};
-    const auto g = generator_settings(with({}), rotations);
+    const auto g = actformer_generator_settings(with({}), rotations);
     EXPECT_EQ(g.parents, (std::vector<int>{-1, 0, 1, 0}));
     EXPECT_EQ(g.numbers(), 6U);
-    const auto d = discriminator_settings(with({}), rotations);
+    const auto d = actformer_discriminator_settings(with({}), rotations);
     EXPECT_EQ(d.parents, g.parents);
     EXPECT_EQ(d.numbers, 6U);
 }
 
-TEST(GeneratorSettings, RefusesWhatNoNetworkHas) {
+TEST(ActFormerGeneratorSettings, RefusesWhatNoNetworkHas) {
     expect_refused({"heads=7"}, 2, 26, {"heads: 7", "width: 200", "196"});
     expect_refused({"width=25", "heads=5"}, 2, 26, {"width: 25 is odd"});
     expect_refused({"persons=1"}, 2, 26, {"ntu: 2 persons", "persons: 1"});
@@ -114,7 +114,7 @@ TEST(ModelCommand, TakesEveryGeneratorConfiguration) {
     EXPECT_EQ(lines_in(refused.output), 1) << refused.output;
 }
 
-TEST(GeneratorSettings, SwitchesThatThePaperDoesNotHaveAreOffInItsConfigurations) {
+TEST(ActFormerGeneratorSettings, SwitchesThatThePaperDoesNotHaveAreOffInItsConfigurations) {
     for (const auto* name : {"actformer.yaml", "actformer-ntu-1p.yaml", "actformer-ntu-2p.yaml"}) {
         auto config = whole_config();
         config.load(configs + name);
@@ -133,7 +133,7 @@ TEST(GeneratorSettings, SwitchesThatThePaperDoesNotHaveAreOffInItsConfigurations
     }
 }
 
-TEST(GeneratorSettings, RefuseAugmentationThatHidesWhatWasRecorded) {
+TEST(ActFormerGeneratorSettings, RefuseAugmentationThatHidesWhatWasRecorded) {
     for (const auto& [assignment, words] : std::vector<std::pair<std::string, std::string>>{
              {"mirror=0.5", "mirror: 0.5 leaves nothing"}, {"turn=1", "turn: 1 leaves nothing"}}) {
         auto config = whole_config();
