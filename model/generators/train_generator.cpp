@@ -36,6 +36,14 @@ TrainingResult train_here(const Config& config, const std::filesystem::path& run
     const auto clips = view_to_draw(opencl, dataset, settings.train_split).store;
     const LearnerSetup setup{clips, device, *processes};
     const auto learner = method.learner(config, spec, setup);
+    if (place.leads())
+        tell_split(dataset, settings, clips.table().clips(),
+                   learner->windows_a_step() * static_cast<std::uint64_t>(place.size),
+                   settings.recogniser.empty()
+                       ? "no recogniser scores it, so no accuracy and no weights-best.h5 (recogniser=RUN "
+                         "names one)"
+                       : fmt::format("scored against split {}", settings.train_split),
+                   events.note);
     std::unique_ptr<GeneratorValidator> validator;
     if (place.leads() && !settings.recogniser.empty()) {
         validator = std::make_unique<GeneratorValidator>(config, spec, dataset, clips, device_name, *learner);

@@ -89,6 +89,11 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
                                 notes["configuration"] = config.yaml();
                                 trainee.save(path, weights, notes);
                             }};
+    const auto tests =
+        test_clips
+            ? fmt::format("tests on split {}: {} clips", settings.test_split, test_clips->table().clips())
+            : "tests on none, so no accuracy and no weights-best.h5 (test_split=SPLIT names one)";
+    tell_split(dataset, settings, clips.table().clips(), learner.windows_a_step(), tests, events.note);
     if (const auto line = missing_classes(clips, header.classes, settings.train_split);
         !line.empty() && events.note)
         events.note(line);

@@ -69,6 +69,21 @@ ingest::View view_to_draw(std::optional<kernels::Device>& device, const ingest::
                   : ingest::load_view(dataset, split, joints);
 }
 
+void tell_split(const ingest::Dataset& dataset, const TrainerSettings& settings, std::uint64_t clips,
+                std::uint64_t windows_a_step, const std::string& tests,
+                const std::function<void(const std::string&)>& note) {
+    if (!note) return;
+    const auto windows = (clips + windows_a_step - 1) / windows_a_step * windows_a_step;
+    note(fmt::format("trains on split {}: {} clips, {} windows an epoch; {}", settings.train_split, clips,
+                     windows, tests));
+    if (settings.train_split == "all" &&
+        std::ranges::any_of(dataset.header().splits, [](const auto& split) { return split.name == "train"; }))
+        note(
+            fmt::format("{} has a split train, and this training takes all clips; train_split=train keeps "
+                        "the others to test on",
+                        dataset.folder().string()));
+}
+
 at::Tensor values_of(const Windows& windows, std::int64_t channels, std::int64_t frames, std::int64_t joints,
                      const at::Device& device) {
     return sent(at::from_blob(windows.values, {windows.count, channels, frames, joints}, at::kFloat), device);

@@ -42,6 +42,12 @@ std::optional<kernels::Device> device_that_draws(const std::string& opencl,
 ingest::View view_to_draw(std::optional<kernels::Device>& device, const ingest::Dataset& dataset,
                           const std::string& split, ingest::Joints joints = ingest::Joints::own);
 
+/// Notes on what a training trains: split, clips and windows an epoch, then `tests`; and where it takes all clips of a dataset that has a split
+/// `train`, that it does. `note` may be empty.
+void tell_split(const ingest::Dataset& dataset, const TrainerSettings& settings, std::uint64_t clips,
+                std::uint64_t windows_a_step, const std::string& tests,
+                const std::function<void(const std::string&)>& note);
+
 /// Windows on their way to `device`: (count, channels, frames, joints) float32, and their labels (count) int64. On the
 /// CPU the values are the feed's own memory, good until it moves on.
 at::Tensor values_of(const Windows& windows, std::int64_t channels, std::int64_t frames, std::int64_t joints,

@@ -212,6 +212,16 @@ TEST_F(TrainGenerator, TwoProcessesAreOneWithTwiceTheBatch) {
     expect_refused(train("two", "batch=18 discriminator_steps=1"), {"by 2 processes", "another -o"});
 }
 
+TEST_F(TrainGenerator, SaysWhatItTrainsOn) {
+    const auto result = train("run", "epochs=1 batch=20 discriminator_steps=1");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(
+        result.output.find("trains on split s/train: 36 clips, 40 windows an epoch; no recogniser scores "
+                           "it, so no accuracy and no weights-best.h5 (recogniser=RUN names one)\n"),
+        std::string::npos)
+        << result.output;
+}
+
 TEST_F(TrainGenerator, KeepsARunToItsSettingsItsDataAndOneTraining) {
     ASSERT_EQ(train("run", "epochs=1").exit, 0);
     expect_refused(train("run", "width=8"), {"other settings", "width is 16 there and 8 here", "another -o"});

@@ -53,6 +53,30 @@ std::size_t epochs_logged(const fs::path& run) {
 
 }  // namespace
 
+TEST_F(TrainRecogniser, SaysWhatItTrainsAndTestsOn) {
+    const auto says = [](const CommandResult& result, const std::string& words) {
+        EXPECT_EQ(result.exit, 0) << result.output;
+        EXPECT_NE(result.output.find(words), std::string::npos) << words << ": " << result.output;
+    };
+    says(train("tested", "epochs=1 batch=16"),
+         "trains on split s/train: 36 clips, 48 windows an epoch; tests on split s/test: 12 clips\n");
+    const auto all = train("all", "epochs=1 train_split=all test_split=");
+    says(all,
+         "trains on split all: 48 clips, 48 windows an epoch; tests on none, so no accuracy and no "
+         "weights-best.h5 (test_split=SPLIT names one)\n");
+    EXPECT_EQ(all.output.find("train_split=train"), std::string::npos) << "there is no split train";
+    write_file(dir / "raw/c0_train_1.bvh", toy_clip(0, 1));
+    write_file(dir / "raw/c1_train_1.bvh", toy_clip(1, 1));
+    ASSERT_EQ(run_actformer("ingest bvh " + (dir / "raw").string() + " -o " + (dir / "data").string() +
+                            " --name '{action}_{part}_{*}' --split train=part:train")
+                  .exit,
+              0);
+    says(run_actformer("train recogniser -c " + (dir / "toy.yaml").string() + " --data " +
+                       (dir / "data").string() + " -o " + (dir / "whole").string() +
+                       " epochs=1 train_split=all test_split="),
+         "data has a split train, and this training takes all clips; train_split=train keeps the others");
+}
+
 TEST_F(TrainRecogniser, TellsToyClassesApart) {
     const auto result =
         train("run", "epochs=40 rate=0.02 rate_drops=30 frames=32 dropout=0 --json 2>/dev/null");
