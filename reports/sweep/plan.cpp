@@ -39,6 +39,13 @@ double number_in(const Settings& set, const fs::path& config, const char* key, d
     return number_in(set, key, in_configuration(config, key, otherwise));
 }
 
+/// What `set`, else the configuration, says of a key; else `otherwise`.
+std::string text_in(const Settings& set, const fs::path& config, const char* key,
+                    const std::string& otherwise) {
+    const auto found = set.find(key);
+    return found == set.end() ? in_configuration<std::string>(config, key, otherwise) : found->second;
+}
+
 /// Windows a second that trainings of each kind were seen to take on two cores, by the width of their networks.
 double training_pace(const std::string& kind, const Settings& set, const fs::path& config) {
     if (kind == "generator") return 200 * std::pow(200 / number_in(set, config, "width", 200), 1.5);
@@ -108,11 +115,15 @@ class Planner {
         return at;
     }
 
-    /// A configuration may be one that comes with the program.
+    /// It may be one that comes with the program. Throws Error where there is none.
+    std::string configuration_at(const std::string& path) const {
+        const auto at = place_of(path);
+        return at.empty() ? file_or_shipped(path, "model/configs").string() : at;
+    }
+
     std::string configuration(const std::string& path, Job& job) {
-        if (!place_of(path).empty()) return with_contents(path, job);
         try {
-            return with_contents(file_or_shipped(path, "model/configs").string(), job);
+            return with_contents(configuration_at(path), job);
         } catch (const Error& e) {
             if (job.problem.empty()) job.problem = e.what();
             return path;
@@ -238,18 +249,31 @@ class Planner {
     }
 
     void plan_row(const SweepRow& row) {
-        PlannedRow planned{&row, {}};
+        PlannedRow planned{&row, split_of(row), {}};
         const auto data = dataset(row.data);
         const auto together = row.recogniser.empty() ? Made{} : recogniser(row.recogniser);
         const auto single = row.single_recogniser.empty() ? Made{} : recogniser(row.single_recogniser);
         const bool trains = row.motions.empty() && row.weights.empty();
         const auto seeds = trains ? row.seeds : std::vector<std::uint64_t>{0};
-        for (const auto seed : seeds) planned.runs.push_back(planned_run(row, seed, data, together, single));
+        for (const auto seed : seeds)
+            planned.runs.push_back(planned_run(planned, seed, data, together, single));
         plan_.rows.push_back(std::move(planned));
     }
 
-    PlannedRun planned_run(const SweepRow& row, std::uint64_t seed, const Made& data, const Made& recogniser,
-                           const Made& single) {
+    /// What it trains on, where it does not say.
+    std::string split_of(const SweepRow& row) const {
+        if (!row.split.empty()) return row.split;
+        std::string config;
+        try {
+            if (!row.config.empty()) config = configuration_at(row.config);
+        } catch (const Error&) {  // the training will say so
+        }
+        return text_in(row.set, config, "train_split", "all");
+    }
+
+    PlannedRun planned_run(const PlannedRow& planned, std::uint64_t seed, const Made& data,
+                           const Made& recogniser, const Made& single) {
+        const auto& row = *planned.row;
         PlannedRun run;
         run.seed = seed;
         Job job;
@@ -260,7 +284,7 @@ class Planner {
         run.recogniser = recogniser.path.empty() ? single.path : recogniser.path;
         work.single_recogniser = single.path;
         work.data = run.dataset = data.path;
-        work.split = row.split;
+        work.split = planned.split;
         work.device = row.device;
         work.window = row.window;
         work.repeats = row.repeats;
@@ -295,7 +319,59 @@ class Planner {
     Plan plan_;
 };
 
+/// The splits of datasets, each read once.
+class SplitCheck {
+  public:
+    SplitCheck(const fs::path& file, const fs::path& out) : file_(file), out_(out) {}
+
+    /// `key` of `who` asks for `split` of the dataset at `path`, which `job` needs.
+    void check(const std::string& who, const char* key, const std::string& split, const Job& job,
+               const std::string& path) {
+        if (split.empty()) return;
+        const auto& known = splits_at(filled_in(path, out_, job));
+        if (known.empty() || std::ranges::find(known, split) != known.end()) return;
+        throw Error("{}: {}: no split '{}' in its dataset, which has {}; set {}: to one of them",
+                    file_.string(), who, split, fmt::join(known, ", "), key);
+    }
+
+    void check(const std::string& who, const Job& job) {
+        const auto* work = std::get_if<TrainingWork>(&job.work);
+        if (!work) return;
+        for (const auto& [key, otherwise] : {std::pair{"train_split", "all"}, {"test_split", ""}})
+            check(who, key, text_in(work->set, work->config, key, otherwise), job, work->data);
+    }
+
+  private:
+    /// None where there is no dataset yet, or none that can be read.
+    const std::vector<std::string>& splits_at(const std::string& path) {
+        const auto [found, fresh] = splits_.try_emplace(path);
+        if (!fresh || !fs::exists(path)) return found->second;
+        try {
+            const ingest::Dataset dataset(ingest::one_dataset_at(path));
+            found->second = {"all"};
+            for (const auto& split : dataset.header().splits) found->second.push_back(split.name);
+        } catch (const Error&) {  // whoever uses it will say why
+        }
+        return found->second;
+    }
+
+    fs::path file_, out_;
+    std::map<std::string, std::vector<std::string>> splits_;
+};
+
 }  // namespace
+
+void check_splits(const fs::path& file, const Plan& plan, const fs::path& out) {
+    SplitCheck splits(file, out);
+    for (const auto& job : plan.jobs)
+        if (job.kind == "recogniser") splits.check(job.title, job);
+    for (const auto& planned : plan.rows) {
+        const auto& run = planned.runs.front();
+        const auto who = fmt::format("row '{}'", planned.row->name);
+        if (run.generator) splits.check(who, plan.jobs[*run.generator]);
+        splits.check(who, "split", planned.split, plan.jobs[run.score], run.dataset);
+    }
+}
 
 Plan make_plan(const Sweep& sweep, const fs::path& beside, const JobRunner& runner) {
     return Planner(sweep, beside, runner).plan();

@@ -140,7 +140,7 @@ nlohmann::ordered_json results(const Sweep& sweep, const Plan& plan, const fs::p
         one["fills"] = row.fills;
         one["dataset"] = row.data;
         one["data"] = data_json(sweep.datasets.at(row.data));
-        one["split"] = row.split;
+        one["split"] = planned.split;
         one["settings"] = row.set;
         one["runs"] = runs;
         json["rows"].push_back(one);

@@ -37,7 +37,7 @@ struct SweepRow {
     Settings set;
     std::vector<std::uint64_t> seeds{0, 1, 2};
     std::uint64_t repeats = 20, per_class = 100, window = 60;
-    std::string split = "xsub/train", device;
+    std::string split, device;       ///< split empty: the `train_split` of `set` or `config`, else "all"
     std::vector<std::string> fills;  ///< cells, see find_cell
 };
 

@@ -388,6 +388,41 @@ TEST(RealSweep, GoesFromADatasetToScores) {
     EXPECT_TRUE(fs::exists(dir / "out" / row["runs"][0]["motions"].get<std::string>()));
 }
 
+TEST_F(Sweep, RowsAreScoredAgainstWhatTheyTrainOn) {
+    sweep_file(
+        "  said: {split: xsub/test, set: {train_split: here}}\n"
+        "  set: {set: {train_split: here}}\n"
+        "  configured: {config: split.yaml}\n"
+        "  neither: {}\n");
+    write_file(dir / "split.yaml", "model: generator\ntrain_split: there\n");
+    ASSERT_EQ(sweep().exit, 0);
+    for (const auto* split : {"xsub/test", "here", "there", "all"})
+        EXPECT_EQ(calls_of(std::string("--split ") + split + " "), 1) << split;
+    EXPECT_EQ(results()["rows"][2]["split"], "there");
+}
+
+TEST_F(Sweep, RefusesSplitsThatADatasetHasNot) {
+    const auto sweep_of = [&](const std::string& recogniser, const std::string& row) {
+        write_file(dir / "sweep.yaml", "datasets: {toy: {path: " + toy().string() +
+                                           "}}\nrecognisers: {ears: {data: toy, config: r.yaml, set: {" +
+                                           recogniser +
+                                           "}}}\nbase: {data: toy, recogniser: ears, config: g.yaml}\n"
+                                           "rows: {full: {" +
+                                           row + "}}\n");
+    };
+    const std::string there = "which has all, s/train, s/test, s/two, s/none";
+    sweep_of("", "split: xsub/train");
+    expect_refused({"sweep.yaml: row 'full'", "no split 'xsub/train'", there, "split:"});
+    sweep_of("", "set: {train_split: s/tain}");
+    expect_refused({"row 'full'", "no split 's/tain'", there, "train_split:"});
+    sweep_of("test_split: test", "");
+    expect_refused({"recogniser ears", "no split 'test'", there, "test_split:"});
+    sweep_of("train_split: s/train", "split: s/test");
+    EXPECT_EQ(sweep("--dry-run").exit, 0);
+    sweep_of("", "split: xsub/train");
+    EXPECT_EQ(sweep("--status").exit, 0) << "what was done before may be looked at";
+}
+
 TEST_F(Sweep, ADryRunChecksEveryKey) {
     if (!fs::exists(program() + "-train")) GTEST_SKIP() << "built without libtorch";
     sweep_file(
