@@ -16,6 +16,7 @@
 #include "cli/say.hpp"
 #include "cli/shipped_option.hpp"
 #include "cli/sweep_jobs.hpp"
+#include "reports/page/training.hpp"
 #include "reports/sweep/run.hpp"
 
 namespace actformer::cli {
@@ -122,9 +123,18 @@ void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Swee
             options.file.string(), failed, counted(plan.jobs.size(), "job"));
 }
 
+/// The folder of a dataset or a training is no place for a sweep's jobs.
+void refuse_other_folders(const fs::path& out) {
+    if (fs::exists(out / "results.json")) return;
+    const char* held = fs::exists(out / "dataset.json") ? "a dataset" : nullptr;
+    if (!held && reports::training_row(out)) held = "a training";
+    if (held) throw Error("{}: holds {}, not a sweep; choose another -o", out.string(), held);
+}
+
 void run(SweepOptions options) {
     if (options.program.empty()) options.program = (program_folder() / "actformer").string();
     options.out = fs::absolute(options.out).lexically_normal();
+    refuse_other_folders(options.out);
     const auto sweep = reports::read_sweep(options.file);
     const SweepJobs jobs(options.program, options.out);
     auto plan = reports::make_plan(sweep, options.file.parent_path(), jobs);

@@ -423,6 +423,17 @@ TEST_F(Sweep, RefusesSplitsThatADatasetHasNot) {
     EXPECT_EQ(sweep("--status").exit, 0) << "what was done before may be looked at";
 }
 
+TEST_F(Sweep, StaysOutOfOtherFolders) {
+    sweep_file("  full: {}\n");
+    write_file(dir / "out/dataset.json", "{}");
+    actformer::test::expect_refused(sweep(), {"/out: holds a dataset", "another -o"});
+    fs::remove(dir / "out/dataset.json");
+    write_file(dir / "out/config.yaml", "model: csgn\n");
+    write_file(dir / "out/log.jsonl", "{\"epoch\":1,\"loss\":2.5}\n");
+    actformer::test::expect_refused(sweep("--dry-run"), {"/out: holds a training", "another -o"});
+    EXPECT_EQ(calls().size(), 0U);
+}
+
 TEST_F(Sweep, ADryRunChecksEveryKey) {
     if (!fs::exists(program() + "-train")) GTEST_SKIP() << "built without libtorch";
     sweep_file(
