@@ -28,7 +28,8 @@ const std::vector<Metric>& metrics() {
 }
 
 const Metric* find_metric(std::string_view name) {
-    const auto found = std::ranges::find(metrics(), name, &Metric::name);
+    const auto found = std::ranges::find_if(
+        metrics(), [&](const Metric& metric) { return name == metric.name || name == metric.heading; });
     return found == metrics().end() ? nullptr : &*found;
 }
 

@@ -28,7 +28,7 @@ struct Metric {
 /// In the order of the tables.
 const std::vector<Metric>& metrics();
 
-/// Null where there is none of that name.
+/// By name or heading. Null where there is none.
 const Metric* find_metric(std::string_view name);
 
 /// "accuracy %", "FIDm"

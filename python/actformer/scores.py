@@ -8,6 +8,22 @@ from .errors import Error, suggestion
 from .files import AnyPath, read_json
 
 
+HEADINGS = {  # as tables print them: names in files
+    "FIDm": "fid_mean",
+    "FIDw": "fid_whole",
+    "FIDa_m": "fida_mean",
+    "FIDa_w": "fida_whole",
+    "FIDm at infinity": "fid_mean_infinity",
+    "FIDw at infinity": "fid_whole_infinity",
+    "KIDm": "kid_mean",
+    "KIDw": "kid_whole",
+    "limb acceleration": "limb_acceleration",
+    "root acceleration": "root_acceleration",
+    "foot sliding": "foot_sliding",
+    "root distance": "root_distance",
+}
+
+
 @dataclass(frozen=True)
 class Metric:
     """A metric over the repeats. ``ci95`` is the half-width of the mean's 95 % interval, None of one repeat."""
@@ -23,7 +39,7 @@ class Scores:
     """Metrics by name, and all else that the file tells.
 
     >>> scores = read_scores("scores.json")
-    >>> metric = scores["fid_mean"]                     # FIDm; fid_whole is FIDw
+    >>> metric = scores["fid_mean"]                     # or scores["FIDm"]
     >>> metric.mean >= 0
     True
     """
@@ -37,6 +53,8 @@ class Scores:
     provenance: Dict[str, Any]
 
     def __getitem__(self, name: str) -> Metric:
+        """By its name, or by its heading in tables."""
+        name = HEADINGS.get(name, name)
         if name not in self.metrics:
             hint = suggestion(name, self.metrics) or f"; there are {', '.join(self.metrics)}"
             raise Error(f"no metric is called '{name}'{hint}")

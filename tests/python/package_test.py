@@ -176,6 +176,7 @@ class Results(unittest.TestCase):
         for name in ("accuracy", "fid_mean", "fid_whole", "diversity"):
             self.assertEqual(scores[name].mean, told[name]["mean"])
             self.assertEqual(scores[name].floor, told["floor"].get(name))
+        self.assertEqual(scores["FIDm"], scores["fid_mean"])
         self.assertNotIn("real", scores.metrics)
         self.assertNotIn("floor", scores.metrics)
         self.assertEqual(len(scores.confusion), 94)

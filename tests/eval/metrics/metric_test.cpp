@@ -25,6 +25,7 @@ TEST(Metrics, HaveNamesOfTheirOwnAndValues) {
     for (const auto& metric : metrics()) {
         names.insert(metric.name);
         EXPECT_EQ(find_metric(metric.name), &metric);
+        EXPECT_EQ(find_metric(metric.heading), &metric);
         ASSERT_TRUE(value_of(score, metric)) << metric.name;
         values.push_back(*value_of(score, metric));
     }
