@@ -20,6 +20,28 @@
 namespace actformer::cli {
 namespace {
 
+/// Figures in the tables that rows fill, else in those of all rows; and curves of trainings.
+std::string contents(std::size_t figures, const std::vector<reports::MeasuredRow>& rows) {
+    const auto trainings = static_cast<std::size_t>(
+        std::ranges::count_if(rows, [](const auto& row) { return row.sweep.empty(); }));
+    const auto scored = rows.size() - trainings;
+    std::string out;
+    if (scored > 0 || trainings == 0)
+        out = fmt::format("{} measured in {}", counted(figures, "figure"), counted(scored, "row"));
+    if (trainings > 0)
+        out += fmt::format("{}curves of {}", out.empty() ? "" : ", ", counted(trainings, "training"));
+    return out;
+}
+
+/// Whether a row is for a cell of the papers' tables.
+bool fills_papers(const std::vector<reports::FilledTable>& tables) {
+    const auto& papers = reports::paper_tables();
+    return std::ranges::any_of(tables, [&](const auto& table) {
+        return table.has_rows() &&
+               std::ranges::find(papers, table.paper->id, &reports::PaperTable::id) != papers.end();
+    });
+}
+
 std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
     std::size_t cells = 0;
     for (const auto& table : tables)
@@ -48,19 +70,18 @@ bool write_report(const ReportOptions& options) {
         if (!path.empty()) check_output(path);
     auto measured = reports::read_measured(options.folders);
     auto tables = reports::fill_tables(measured);
-    if (options.filled_only ||
-        std::ranges::all_of(measured.rows, [](const auto& row) { return row.fills.empty(); }))
+    if (options.filled_only || !fills_papers(tables))
         std::erase_if(tables, [](const auto& table) { return !table.has_rows(); });
-    const auto figures = measured_cells(tables);
     const reports::RowTables rows(measured);
+    const auto figures = measured_cells(tables.empty() ? rows.filled() : tables);
     tables.insert(tables.end(), rows.filled().begin(), rows.filled().end());
     if (!options.out.empty()) {
         const reports::DetailOptions details{static_cast<std::size_t>(1e6 * options.motion_megabytes)};
         const auto data = reports::details(measured, details);
         const auto html = reports::page(options.title, tables, measured.notices, data);
         write_whole(options.out, html);
-        say(stderr, "{}: {} measured in {}, {}\n", options.out.string(), counted(figures, "figure"),
-            counted(measured.rows.size(), "row"), bytes(html.size()));
+        say(stderr, "{}: {}, {}\n", options.out.string(), contents(figures, measured.rows),
+            bytes(html.size()));
     }
     if (!options.csv.empty()) write_whole(options.csv, reports::to_csv(tables));
     if (!options.latex.empty()) write_whole(options.latex, reports::to_latex(tables));

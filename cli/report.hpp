@@ -14,7 +14,7 @@ struct ReportOptions {
     double motion_megabytes = 12;
     bool json = false;
     bool filled_only =
-        false;  ///< leave out tables that nothing was run for; they are where no row is for any
+        false;  ///< leave out tables that nothing was run for; they are where no row is for the papers' ones
 };
 
 /// Says on standard error what it wrote and what is missing. Whether rows are still to be measured. Throws Error for folders without

@@ -184,7 +184,7 @@ TEST_F(ReportPage, KnowsATrainingBeforeItsFirstEpochAndWhateverItIsCalled) {
     const auto result = run_command("cd " + at("a/run") + " && " + program() +
                                     " report . ../run ../../b/run -o " + at("r.html"));
     ASSERT_EQ(result.exit, 0) << result.output;
-    EXPECT_NE(result.output.find("in 2 rows"), std::string::npos)
+    EXPECT_NE(result.output.find("r.html: curves of 2 trainings, "), std::string::npos)
         << "one of them was given twice: " << result.output;
     const auto html = read_file(dir / "r.html");
     EXPECT_NE(html.find("\"name\":\"run\""), std::string::npos);
@@ -197,6 +197,32 @@ TEST_F(ReportPage, CurvesAreOfTheTrainingAndNotOfTheFolderThatOneIsIn) {
                                     " -o " + at("r.html"));
     ASSERT_EQ(result.exit, 0) << result.output;
     EXPECT_EQ(read_file(dir / "r.html").find("123.25"), std::string::npos);
+}
+
+TEST_F(ReportPage, HoldsNoEmptyTablesOfPapersThatNothingWasRunFor) {
+    fs::copy(swept().at("out"), dir / "out", fs::copy_options::recursive);
+    auto json = nlohmann::ordered_json::parse(read_file(dir / "out/results.json"));
+    for (auto& row : json["rows"]) row["fills"] = nlohmann::json::array();
+    json["tables"] = "mine: {columns: [{dataset: CMU, metrics: [FIDm]}], rows: {Mine: {}}}";
+    json.erase("checksum");
+    const auto written = [&] {
+        write_file(dir / "out/results.json", json.dump());
+        return run_actformer("report " + at("out") + " -o " + at("r.html") + " --csv " + at("t.csv") +
+                             " --latex " + at("t.tex"));
+    };
+    const auto none = written();
+    ASSERT_EQ(none.exit, 0) << none.output;
+    EXPECT_EQ(none.output.find(" 0 figures"), std::string::npos) << "those of all rows: " << none.output;
+    EXPECT_NE(none.output.find("measured in 4 rows"), std::string::npos) << none.output;
+    EXPECT_EQ(read_file(dir / "t.csv").find("table1"), std::string::npos);
+    json["rows"][0]["fills"] = {"mine/Mine/CMU"};
+    const auto own = written();
+    EXPECT_NE(own.output.find("1 figure measured in 4 rows"), std::string::npos) << own.output;
+    const auto csv = read_file(dir / "t.csv");
+    EXPECT_NE(csv.find("mine,Mine,CMU,fid_mean,measured,"), std::string::npos)
+        << "a heading names a metric too: " << csv;
+    EXPECT_EQ(csv.find("table1"), std::string::npos);
+    EXPECT_EQ(read_file(dir / "t.tex").find("ACTOR"), std::string::npos);
 }
 
 TEST_F(ReportPage, RefusesWhatIsNoSweepAndSaysWhy) {
