@@ -64,7 +64,7 @@ def blocks_of(page, text):
 def run(block, folder, environment, printed):
     """Runs a block, or writes the file that it is; ends the program where it fails or says something else than the page."""
     if "file" in block.notes:
-        (pathlib.Path(folder) / block.notes["file"]).write_text(block.text)
+        (pathlib.Path(folder) / block.notes["file"]).write_text(block.command(printed))
         return
     if "before it" in block.notes:
         subprocess.run(["bash", "-euo", "pipefail", "-c", block.notes["before it"]], cwd=folder, env=environment, check=True)
