@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "base/error.hpp"
 #include "base/process/peer.hpp"
 #include "base/process/process.hpp"
+#include "base/text/printable.hpp"
 #include "cli/bench.hpp"
 #include "cli/say.hpp"
 #include "model/generators/method_speed.hpp"
@@ -57,14 +59,18 @@ std::vector<std::string> peer_command(const BenchTrainOptions& options,
     return command;
 }
 
-/// The peer's seconds, its own best: the `count` numbers of the last line that it prints.
+/// The peer's seconds, its own best: the last line that it prints, `count` numbers above 0. Throws Error for any other line.
 std::vector<double> ask_peer(const std::vector<std::string>& command, int threads, std::size_t count) {
-    const auto said =
-        output_of(command, {{"OMP_NUM_THREADS", std::to_string(threads)}}).value_or(std::string());
-    std::istringstream last(said.substr(said.substr(0, said.find_last_not_of('\n') + 1).rfind('\n') + 1));
-    std::vector<double> seconds(count);
-    for (auto& number : seconds)
-        if (!(last >> number)) throw Error("{} failed", command_line(command));
+    const auto said = output_of(command, {{"OMP_NUM_THREADS", std::to_string(threads)}});
+    if (!said) throw Error("{} failed", command_line(command));
+    const auto end = said->find_last_not_of('\n') + 1;
+    const auto last = said->substr(0, end).substr(said->substr(0, end).rfind('\n') + 1);
+    std::istringstream line(last);
+    std::vector<double> seconds;
+    for (double number = 0; line >> number && number > 0 && std::isfinite(number);) seconds.push_back(number);
+    if (seconds.size() != count || !line.eof())
+        throw Error("{}: its last line is {}, where {} numbers of seconds are wanted", command_line(command),
+                    in_quotes(last), count);
     return seconds;
 }
 
@@ -110,8 +116,8 @@ void print_layers(const model::WorkTime& work) {
 
 void print_text(const model::MethodSpeed& test, const std::vector<Row>& rows) {
     const auto& r = test.request();
-    say("{}\n{} on {}: {} persons, {} classes, {} frames, batches of {}\n", test.machine(), r.method,
-        test.device(), r.persons, r.classes, r.frames, r.batch);
+    say("{}\n{} on {}: {} person{}, {} classes, {} frames, batches of {}\n", test.machine(), r.method,
+        test.device(), r.persons, r.persons == 1 ? "" : "s", r.classes, r.frames, r.batch);
     say("{:<24} {:>10} {:>15} {:>7}\n", "seconds", "actformer", "PyTorch, eager", "ratio");
     for (const auto& row : rows)
         if (row.peer)

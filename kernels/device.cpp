@@ -92,11 +92,11 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_vi
             "no OpenCL device: install a driver (on Debian without a GPU: apt install pocl-opencl-icd); "
             "where there "
             "is one, limits on memory and open files keep it out (ulimit -v, ulimit -n)");
-    std::string from = "--device";
+    const char* from = "";
     if (wish.empty()) {
         if (const char* set = std::getenv("ACTFORMER_DEVICE"); set && *set) {
             wish = set;
-            from = "ACTFORMER_DEVICE";
+            from = "ACTFORMER_DEVICE: ";
         }
     }
     if (wish.empty()) return default_device(devices);
@@ -112,7 +112,7 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_vi
         for (const auto& d : devices)
             if (lower(d.name).find(text) != std::string::npos) return d.index;
     }
-    throw Error("{} {}: no such OpenCL device; there is {}", from, wish, names_of(devices));
+    throw Error("{}there is no OpenCL device '{}'; there is {}", from, wish, names_of(devices));
 }
 
 Device::Device(std::string_view wish) {
@@ -181,7 +181,7 @@ void raise(const DeviceInfo& device, std::string_view what, const cl::Error& err
         case CL_MEM_OBJECT_ALLOCATION_FAILURE:
         case CL_OUT_OF_HOST_MEMORY:
         case CL_INVALID_BUFFER_SIZE:
-            throw OutOfMemory("device {} ({}): out of memory {}; choose another with --device", device.index,
+            throw OutOfMemory("device {} ({}): out of memory {}; choose another device, or take less at once", device.index,
                               device.name, what);
         default:
             throw Error("device {} ({}): {} failed: {} says {}", device.index, device.name, what,

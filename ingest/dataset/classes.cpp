@@ -43,18 +43,18 @@ std::uint32_t label_called(const std::string& said, const std::vector<std::strin
     if (const auto label = named(said, classes)) return *label;
     const auto number = number_in(said);
     if (number && *number >= 1 && (classes.empty() || *number <= classes.size())) return *number - 1;
-    const auto shown = printable(said);
+    const auto shown = in_quotes(said);
     if (classes.empty())
-        throw Error("{}: there is no class '{}'; its classes have no names, only numbers from 1 on, as in 7",
+        throw Error("{}: there is no class {}; its classes have no names, only numbers from 1 on, as in 7",
                     where, shown);
     if (number)
         throw Error("{}: there is no class {}; they are numbered from 1 to {} ('{}' .. '{}')", where, shown,
                     classes.size(), printable(classes.front()), printable(classes.back()));
     const auto nearest = nearest_word(lower(said), classes);
     if (!nearest.empty())
-        throw Error("{}: there is no class '{}'; did you mean '{}'?", where, shown, printable(nearest));
-    throw Error("{}: there is no class '{}'; give a name or a number from 1 to {} ('{}' .. '{}')", where,
-                shown, classes.size(), printable(classes.front()), printable(classes.back()));
+        throw Error("{}: there is no class {}; did you mean '{}'?", where, shown, printable(nearest));
+    throw Error("{}: there is no class {}; give a name or a number from 1 to {} ('{}' .. '{}')", where, shown,
+                classes.size(), printable(classes.front()), printable(classes.back()));
 }
 
 }  // namespace actformer::ingest

@@ -1,5 +1,6 @@
 #include "ingest/dataset/shard.hpp"
 
+#include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
@@ -11,6 +12,8 @@ namespace {
 constexpr hsize_t frames_a_chunk = 256;
 
 constexpr auto motion_array = "motion";
+
+constexpr std::size_t most_of_an_attribute = 60'000;  ///< bytes
 
 template <typename T, typename Of>
 std::vector<T> column(const std::vector<Clip>& clips, Of of) {
@@ -49,7 +52,10 @@ ShardImage ShardBuilder::image(hdf5::FileMemory& memory, const std::string& sett
     hdf5::Writer file(memory, frames_ * header_->frame_values() * sizeof(float));
     file.attribute("program", "actformer " ACTFORMER_VERSION);
     file.attribute("dataset", header_->name);
-    file.attribute("settings", settings);
+    // An attribute of HDF5 has 64 KiB at most, and settings name every class.
+    file.attribute("settings", settings.size() <= most_of_an_attribute
+                                   ? settings
+                                   : "in dataset.json, of checksum " + checksum(settings));
     file.attribute("source", fingerprint);
     file.write_pieces(motion_array, {frames_, p, header_->nodes(), header_->representation.numbers()}, motion,
                       frames_a_chunk);

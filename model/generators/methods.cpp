@@ -41,7 +41,7 @@ const Method& method_named(const std::string& name, const std::string& where) {
         names.push_back(method.name);
     }
     const auto nearest = nearest_word(name, names);
-    throw Error("{}: there is no method '{}'; {}", where, printable(name),
+    throw Error("{}: there is no method {}; {}", where, in_quotes(name),
                 nearest.empty() ? fmt::format("the methods are {}", fmt::join(names, ", "))
                                 : fmt::format("did you mean '{}'?", nearest));
 }

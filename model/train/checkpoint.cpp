@@ -105,8 +105,8 @@ std::optional<Checkpoint> newest_checkpoint(const fs::path& folder, const std::s
         }
         if (auto checkpoint = read_checkpoint(files[i])) {
             if (const auto whose = checkpoint->state.value("model", "unknown"); whose != model)
-                throw Error("{}: a checkpoint of a {}, not of a {}; choose another -o", files[i].string(),
-                            whose, model);
+                throw Error("{}: a checkpoint of {}, not of {}; choose another -o", files[i].string(), whose,
+                            model);
             if (!earlier.empty())
                 note(fmt::format("{}: of another version; going back to {}", earlier.string(),
                                  files[i].string()));

@@ -194,8 +194,7 @@ void Config::take(const YAML::Node& root, const std::string& file) {
         if (name == "model") {
             const auto named = scalar(entry.second);
             if (named == model_ || (!named.empty() && std::ranges::count(other_names_, named) > 0)) continue;
-            throw Error("{}: a configuration for model '{}', not '{}'", where,
-                        printable(scalar(entry.second)), model_);
+            throw Error("{}: a configuration for model {}, not '{}'", where, in_quotes(named), model_);
         }
         const auto i = index_of(name, where);
         values_[i] = parsed(keys_[i], entry.second, where);
@@ -208,6 +207,9 @@ void Config::override_with(const std::string& assignment) {
     const auto where = fmt::format("'{}'", printable(assignment));
     const auto equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) throw Error("{}: overrides are written key=value", where);
+    if (assignment.substr(0, equals) == "model")
+        throw Error("{}: a configuration's model cannot be overridden; choose a configuration of it with -c",
+                    where);
     const auto i = index_of(assignment.substr(0, equals), where);
     const auto text = assignment.substr(equals + 1);
     YAML::Node node(text);

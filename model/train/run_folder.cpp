@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/json.hpp"
+#include "base/text/printable.hpp"
 #include "model/train/tensorboard.hpp"
 
 namespace actformer::model {
@@ -29,6 +30,9 @@ RunFolder::RunFolder(std::filesystem::path folder, bool tensorboard)
 
 void RunFolder::keep_to(const Config& config) const {
     if (std::filesystem::exists(this->config())) {
+        if (const auto model = model_named_in(this->config()); model != config.model())
+            throw Error("{}: holds a training of {}, not of '{}'; choose another -o", folder_.string(),
+                        in_quotes(model), config.model());
         auto before = config.blank();
         before.load(this->config());
         const auto differences = config.differences(before);

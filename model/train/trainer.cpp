@@ -106,7 +106,8 @@ void Loop::compare_data(const Json& state) const {
                     task_.dataset.folder().string());
     };
     if (state.at("persons") != header.persons)
-        refuse(fmt::format("{} persons a clip", state.at("persons").get<int>()));
+        refuse(fmt::format("clips of {} person{}", state.at("persons").get<int>(),
+                           state.at("persons") == 1 ? "" : "s"));
     if (state.at("representation") != header.representation.name())
         refuse("motions as " + state.at("representation").get<std::string>());
     if (state.at("parents") != Json(header.topology.parents))
@@ -140,10 +141,14 @@ void Loop::resume() {
             best_ = ValidationReport{best.at("epoch"), best.at("step"), best.at("values"), true};
             best_selection_score_ = best.at("merit");
         }
-        say(step_ % steps_an_epoch_ == 0
-                ? fmt::format("going on after epoch {} of {}", epoch(), settings_.epochs)
-                : fmt::format("going on after step {}, in epoch {} of {}", step_, epoch() + 1,
-                              settings_.epochs));
+        if (epoch() > settings_.epochs)
+            say(fmt::format("{} epochs are done, more than epochs={}: nothing is left to train", epoch(),
+                            settings_.epochs));
+        else if (step_ % steps_an_epoch_ == 0)
+            say(fmt::format("going on after epoch {} of {}", epoch(), settings_.epochs));
+        else
+            say(fmt::format("going on after step {}, in epoch {} of {}", step_, epoch() + 1,
+                            settings_.epochs));
     }
     folder_->rewind_log(epoch());
 }

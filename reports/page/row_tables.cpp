@@ -37,7 +37,7 @@ std::vector<ColumnMetric> metrics_of(const Rows& rows) {
     std::vector<ColumnMetric> out;
     for (const auto& metric : eval::metrics())
         if (std::ranges::any_of(rows, [&](const auto* row) { return has(*row, metric.name); }))
-            out.emplace_back(metric).heading = eval::heading_with_unit(metric);
+            out.emplace_back(metric);
     return out;
 }
 

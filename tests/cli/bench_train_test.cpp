@@ -86,7 +86,9 @@ TEST(BenchTrain, ComparesWithWhatThePeerPrintsLast) {
     EXPECT_EQ(json["step, processors"]["pytorch"], 2000);
     EXPECT_EQ(json["100 motions"]["pytorch"], 3000);
 
-    EXPECT_NE(bench("echo 1 2\n", "").exit, 0) << "a number is missing";
+    for (const std::string said : {"1 2", "1 2 3 4", "0 1 2", "-1 1 2", "nan 1 2", "1 2 3x", "banana"})
+        EXPECT_NE(bench("echo " + said + "\n", "").exit, 0) << said << ": no three times";
+    EXPECT_NE(bench("exit 3\n", "").exit, 0);
 }
 
 TEST(BenchTrain, RefusesAFolderWithoutThePeer) {

@@ -62,6 +62,13 @@ TEST(IngestMotions, ReadsAnArrayAsItsHelpSays) {
     EXPECT_EQ(dataset.split("test"), std::vector<std::size_t>{1});
     EXPECT_EQ(dataset.clips()[0].frames, 3U);
 
+    const std::string name(40'000,
+                           'a');  // settings with names of classes are longer than an attribute of HDF5
+    write_file(dir / "labels.csv",
+               "name,label,subject\njoints_0," + name + ",s1\njoints_1,b" + name + ",s2\n");
+    ASSERT_EQ(run_actformer(command + in(dir, "long")).exit, 0);
+    EXPECT_EQ(ingest::Dataset(dir / "long").header().classes, (std::vector<std::string>{name, "b" + name}));
+
     const auto plain = "ingest motions " + in(dir, "joints.npy") + " -o " + in(dir, "wrong");
     expect_refused(run_actformer(plain), {"no motion in any file", "give --topology"});
     expect_refused(run_actformer(plain + " --topology smpl24"),

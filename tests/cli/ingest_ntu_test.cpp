@@ -187,7 +187,7 @@ TEST_F(IngestNtu, RefusesWhatIsWiderThanAClip) {
     expect_refused(ingest(), {"none of 1 files gave a clip", "line 1: 'nonsense'"});
     clip("S001C001P001R001A001", plain_clip());
     expect_refused(ingest("--missing " + (dir / "none").string()), {"none: cannot be read"});
-    expect_refused(ingest("--device no-such-thing"), {"--device no-such-thing: no such OpenCL device"});
+    expect_refused(ingest("--device no-such-thing"), {"there is no OpenCL device 'no-such-thing'"});
     expect_refused(
         run_command("OCL_ICD_VENDORS=/nonexistent " + program() + " ingest ntu " + raw() + " -o " + out()),
         {"no OpenCL device", "pocl-opencl-icd"});

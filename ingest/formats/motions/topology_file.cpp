@@ -29,8 +29,8 @@ Topology topology_in(const std::string& path) {
     const std::string text(read_text(path, scratch, largest_file));
     try {
         const auto node = YAML::Load(text);
-        if (!node.IsMap() || !node["names"].IsSequence() || !node["parents"].IsSequence() ||
-            node["parents"].size() > most_joints)
+        if (!node.IsMap() || !node["names"] || !node["names"].IsSequence() || !node["parents"] ||
+            !node["parents"].IsSequence() || node["parents"].size() > most_joints)
             throw Error(
                 "{}: a skeleton is told by names and parents, as in names: [hips, knee, foot], parents: [-1, "
                 "0, 1]",

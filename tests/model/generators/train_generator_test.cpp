@@ -226,6 +226,12 @@ TEST_F(TrainGenerator, KeepsARunToItsSettingsItsDataAndOneTraining) {
     ASSERT_EQ(train("run", "epochs=1").exit, 0);
     expect_refused(train("run", "width=8"), {"other settings", "width is 16 there and 8 here", "another -o"});
     EXPECT_EQ(train("run", "epochs=2").exit, 0);
+    EXPECT_NE(train("run", "epochs=1").output.find("2 epochs are done, more than epochs=1"),
+              std::string::npos);
+    write_file(at("csgn.yaml"), "model: csgn\n");
+    expect_refused(run_actformer("train generator -c " + at("csgn.yaml") + " --data " + toy_pairs().string() +
+                                 " -o " + at("run")),
+                   {"run: holds a training of 'actformer', not of 'csgn'", "another -o"});
     const int lock = ::open(at("run/lock").c_str(), O_RDWR);
     ASSERT_EQ(::flock(lock, LOCK_EX | LOCK_NB), 0);
     expect_refused(train("run"), {"another training", "another -o"});
@@ -236,7 +242,7 @@ TEST_F(TrainGenerator, KeepsARunToItsSettingsItsDataAndOneTraining) {
     ASSERT_EQ(train("all", "epochs=1 train_split=all").exit, 0);
     expect_refused(run_actformer("train generator -c " + at("toy.yaml") + " --data " + toy_pairs().string() +
                                  " -o " + at("all") + " train_split=all"),
-                   {"1 persons a clip", "ntu-2p", "another -o"});
+                   {"clips of 1 person", "ntu-2p", "another -o"});
     auto checkpoint = *model::newest_checkpoint(dir / "all", "actformer", [](const std::string&) {});
     checkpoint.state["dataset"] = "of clips that have changed since";
     model::save_checkpoint(dir / "all", checkpoint);

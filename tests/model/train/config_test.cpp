@@ -74,6 +74,7 @@ TEST_F(Configs, RefusesWhatIsNoConfiguration) {
     expect_refused("model: recogniser\nbatch: 1\nbatch: 2\n", {"c.yaml:3", "twice"});
     expect_refused("batch: 1\n", {"`model: recogniser` is missing"});
     expect_refused("model: generator\n", {"c.yaml:1", "generator"});
+    expect_refused("model: " + std::string(100'000, 'x') + "\n", {"c.yaml:1", "xxx...'"});
     expect_refused("model: [\n", {"c.yaml", "no YAML"});
     expect_refused("- a\n- b\n", {"key: value"});
     expect_refused("", {"key: value"});
@@ -91,6 +92,12 @@ TEST_F(Configs, OverridesFromTheCommandLine) {
     EXPECT_EQ(config.get<std::string>("data"), "/a/b: c=d");
     for (const auto* wrong : {"batch", "=3", "batch=x", "btach=3", "rate_drops=[", "model=generator"})
         EXPECT_THROW(config.override_with(wrong), Error) << wrong;
+    try {
+        config.override_with("model=gru");
+        FAIL() << "taken";
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("choose a configuration of it"), std::string::npos) << e.what();
+    }
 }
 
 TEST_F(Configs, WritesWhatItReads) {

@@ -58,6 +58,8 @@ TEST(TopologyFile, NamesWhatIsWrong) {
         }
     };
     EXPECT_EQ(fault("").substr(0, 33), ": a skeleton is told by names and");
+    EXPECT_EQ(fault("names: [a, b]").substr(0, 33), ": a skeleton is told by names and");
+    EXPECT_EQ(fault("parents: [-1]").substr(0, 33), ": a skeleton is told by names and");
     EXPECT_EQ(fault("names: hips").substr(0, 33), ": a skeleton is told by names and");
     EXPECT_EQ(fault("names: [a, b]\nparents: [-1]").substr(0, 30), ": 2 joint names for 1 parents;");
     EXPECT_EQ(fault("names: [a, b]\nparents: [-1, 2]").substr(0, 25), ": joint 1 (b) has parent ");
