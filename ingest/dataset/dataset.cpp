@@ -101,14 +101,22 @@ Dataset::Dataset(const fs::path& folder) : folder_(folder) {
             throw Error("{}: clip {} is there twice", folder.string(), clips_[i].name);
 }
 
+std::vector<std::string> Dataset::split_names() const {
+    std::vector<std::string> names{"all"};
+    for (const auto& split : header_.splits) names.push_back(split.name);
+    return names;
+}
+
 std::vector<std::size_t> Dataset::split(const std::string& name) const {
     const auto found = std::find_if(header_.splits.begin(), header_.splits.end(),
                                     [&](const Split& split) { return split.name == name; });
     if (found == header_.splits.end() && name != "all") {
-        std::vector<std::string> known{"all"};
-        for (const auto& split : header_.splits) known.push_back(split.name);
+        const auto known = split_names();
+        auto remedy = suggestion(name, known);
+        if (remedy.empty())
+            remedy = "; take one of these, or ingest the raw data with --split NAME=FIELD:VALUE,...";
         throw Error("{}: no split '{}'; there is {}{}", folder_.string(), name, fmt::join(known, ", "),
-                    suggestion(name, known));
+                    remedy);
     }
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < clips_.size(); ++i)

@@ -71,6 +71,9 @@ class Dataset {
     const std::vector<std::string>& remarks() const { return remarks_; }  ///< of the ingest, a line each
     const std::vector<Clip>& clips() const { return clips_; }
 
+    /// "all", and those of the header.
+    std::vector<std::string> split_names() const;
+
     /// Indices into clips() of those in split `name`; "all" is every clip. Throws Error naming the splits there are.
     std::vector<std::size_t> split(const std::string& name) const;
 

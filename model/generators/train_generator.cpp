@@ -24,6 +24,7 @@ TrainingResult train_here(const Config& config, const std::filesystem::path& run
     const auto& method = method_named(config.model(), "configuration");
     const auto dataset = dataset_to_train_on(settings.data);
     const auto subjects = ingest::subjects_of(dataset);
+    check_split(dataset, "train_split", settings.train_split);
     const auto spec = spec_of(subjects, dataset.folder().string());
     method.networks(config, spec);  // what cannot be built is refused before the clips are loaded
     const auto place = data_parallel ? place_of(environment) : Place{};

@@ -67,6 +67,8 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
                             const TrainingEvents& events) {
     const auto settings = recogniser_settings(config);
     const auto dataset = dataset_to_train_on(settings.data);
+    check_split(dataset, "train_split", settings.train_split);
+    if (!settings.test_split.empty()) check_split(dataset, "test_split", settings.test_split);
     const auto& header = dataset.header();
     const auto joints = settings.joints_seen();
     auto trainee = trainee_for(settings, dataset, torch_device(settings.device));

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/random/splitmix.hpp"
+#include "base/text/suggestion.hpp"
 
 namespace actformer::model {
 namespace {
@@ -58,6 +59,17 @@ std::optional<kernels::Device> device_that_draws(const std::string& opencl,
     if (opencl == no_opencl) return std::nullopt;
     const char* set = std::getenv("ACTFORMER_DEVICE");
     const bool named = !opencl.empty() || (set && *set);
+void check_split(const ingest::Dataset& dataset, const std::string& key, const std::string& split) {
+    const auto known = dataset.split_names();
+    if (std::ranges::find(known, split) != known.end()) return;
+    auto remedy = suggestion(split, known);
+    if (remedy.empty())
+        remedy =
+            fmt::format("; give {}=all, or ingest the raw data with --split {}=FIELD:VALUE,...", key, split);
+    throw Error("{}: no split '{}'; there is {}{}", dataset.folder().string(), split, fmt::join(known, ", "),
+                remedy);
+}
+
     if (named || !kernels::list_devices().empty()) return std::optional<kernels::Device>(opencl);
     if (note) note("no OpenCL device: the processor draws the windows");
     return std::nullopt;

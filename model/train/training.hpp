@@ -38,6 +38,9 @@ ingest::Dataset dataset_to_train_on(const std::string& data);
 std::optional<kernels::Device> device_that_draws(const std::string& opencl,
                                                  const std::function<void(const std::string&)>& note);
 
+/// Throws Error with the remedy where `dataset` has no split `split`, which the configuration's `key` names.
+void check_split(const ingest::Dataset& dataset, const std::string& key, const std::string& split);
+
 /// A split to draw from, on that device.
 ingest::View view_to_draw(std::optional<kernels::Device>& device, const ingest::Dataset& dataset,
                           const std::string& split, ingest::Joints joints = ingest::Joints::own);
