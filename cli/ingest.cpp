@@ -30,6 +30,15 @@ std::string left_out_text(const std::string& kind) {
     return "of a name that came before";
 }
 
+/// As in "train 200, test 74"; empty where the dataset has no splits.
+std::string splits_text(const std::string& folder) {
+    const ingest::Dataset dataset(folder);
+    std::vector<std::string> splits;
+    for (const auto& split : dataset.header().splits)
+        splits.push_back(fmt::format("{} {}", split.name, dataset.split(split.name).size()));
+    return fmt::format("{}", fmt::join(splits, ", "));
+}
+
 void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
     if (s.was_complete) {
         say("{} is complete already: nothing to do\n", options.out);
@@ -38,9 +47,13 @@ void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
         if (s.resumed_files) say("went on behind {}\n", counted(s.resumed_files, "finished file"));
         say("read {} ({}) in {}\n", counted(s.files, "file"), bytes(s.text_bytes), duration(s.seconds.wall));
     }
-    for (const auto& d : s.datasets)
+    for (const auto& d : s.datasets) {
         say("  {}: {} of {} in {}, {}, {}\n", d.folder, counted(d.clips, "clip"), counted(d.classes, "class"),
             counted(d.shards, "shard"), counted(d.frames, "frame"), bytes(d.bytes));
+        if (s.was_complete) continue;
+        if (const auto splits = splits_text(d.folder); !splits.empty())
+            say("    clips of splits: {}\n", splits);
+    }
     for (const auto& remark : s.remarks) say("  {}\n", remark);
     for (const auto& doubt : s.doubts) say("  {}\n", to_line(doubt));
     for (const auto& [kind, count] : s.left_out)

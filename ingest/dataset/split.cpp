@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/text/first_few.hpp"
+#include "base/text/printable.hpp"
 #include "base/text/suggestion.hpp"
 
 namespace actformer::ingest {
@@ -22,6 +24,26 @@ std::vector<std::string> pieces(const std::string& text, char separator) {
                                const std::vector<std::string>& fields) {
     throw Error("split {}: clips have no field '{}'; they have {}{}", split.name, condition.field,
                 fmt::join(fields, ", "), suggestion(condition.field, fields));
+}
+
+/// Why no clip is in `split`.
+std::string why_empty(const Split& split, const std::vector<std::string>& fields,
+                      const std::set<std::vector<std::string>>& clips) {
+    for (const auto& condition : split.conditions) {
+        const Split alone{split.name, {condition}};
+        const auto holds = [&](const auto& clip) { return alone.holds(fields, clip); };
+        if (std::any_of(clips.begin(), clips.end(), holds)) continue;
+        const auto field = std::find(fields.begin(), fields.end(), condition.field) - fields.begin();
+        std::set<std::string> there;
+        for (const auto& clip : clips) there.insert(printable(clip[static_cast<std::size_t>(field)]));
+        const auto values = first_few({there.begin(), there.end()});
+        return condition.negated
+                   ? fmt::format("all have {} {}", condition.field, values)
+                   : fmt::format("none has {} {}; there {} {}", condition.field,
+                                 printable(fmt::format("{}", fmt::join(condition.values, " or "))),
+                                 there.size() == 1 ? "is" : "are", values);
+    }
+    return "none meets all its conditions";
 }
 
 }  // namespace
@@ -66,6 +88,18 @@ void check_fields(const std::vector<Split>& splits, const std::vector<std::strin
         for (const auto& condition : split.conditions)
             if (std::find(fields.begin(), fields.end(), condition.field) == fields.end())
                 refuse_field(split, condition, fields);
+}
+
+std::vector<std::string> empty_splits(const std::vector<Split>& splits,
+                                      const std::vector<std::string>& fields,
+                                      const std::set<std::vector<std::string>>& clips) {
+    std::vector<std::string> lines;
+    for (const auto& split : splits)
+        if (std::none_of(clips.begin(), clips.end(),
+                         [&](const auto& clip) { return split.holds(fields, clip); }))
+            lines.push_back(fmt::format("split {} has no clip: {}", printable(split.name),
+                                        why_empty(split, fields, clips)));
+    return lines;
 }
 
 std::string to_text(const std::vector<Split>& splits) {

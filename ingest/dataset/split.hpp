@@ -1,6 +1,7 @@
 // Splits are views: a clip is in a split where its metadata satisfies every condition.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ Split parse_split(const std::string& text);
 
 /// Throws Error naming the split and the fields there are where a condition asks for a field that is not among `fields`.
 void check_fields(const std::vector<Split>& splits, const std::vector<std::string>& fields);
+
+/// A line for every split that holds none of the clips, whose values `clips` has, each alongside `fields`: its name, why, and what
+/// values there are, as in "split train has no clip: none has subject 99; there are 01, 02, 05, ...".
+std::vector<std::string> empty_splits(const std::vector<Split>& splits,
+                                      const std::vector<std::string>& fields,
+                                      const std::set<std::vector<std::string>>& clips);
 
 /// As settings record them: " [xstyle/train style:active,normal]" for each.
 std::string to_text(const std::vector<Split>& splits);

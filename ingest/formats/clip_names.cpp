@@ -174,6 +174,18 @@ std::string ClipNames::group_of(const RawText& raw) const {
     return group;
 }
 
+std::string ClipNames::one_class(const std::vector<std::string>& classes) const {
+    if (classes.size() != 1) return {};
+    const auto found = fmt::format("all clips are of one class, {}", in_quotes(classes[0]));
+    if (labels_) return fmt::format("{}, as {} says", found, printable(labels_path_));
+    const bool of_folder = pattern_->text().rfind('/') != std::string::npos &&
+                           pattern_->text().find("{action}") < pattern_->text().rfind('/');
+    return fmt::format("{}, {} of --name {}; where {} the action, give --name '{}'", found,
+                       of_folder ? "a folder's name by the {action}" : "by the {action}",
+                       in_quotes(pattern_->text()), of_folder ? "the files' own names tell" : "folders tell",
+                       of_folder ? "{action}_{index}" : "{action}/{index}");
+}
+
 std::string ClipNames::unused_labels() const {
     std::vector<std::string> files;
     for (std::size_t r = 0; r < used_.size(); ++r)

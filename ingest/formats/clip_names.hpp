@@ -53,6 +53,9 @@ class ClipNames {
     /// Rows of the labels whose files are not there, in a line; empty where there are none.
     std::string unused_labels() const;
 
+    /// What to do where all clips are of one of `classes`, in a line; empty where they are of several.
+    std::string one_class(const std::vector<std::string>& classes) const;
+
   private:
     /// What is known of a file but for the names of its clips.
     struct Known {

@@ -1,5 +1,6 @@
 // Signals, and output that nobody takes, as a shell or a batch system meets them.
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -111,7 +111,10 @@ void BvhFormat::survey(const RawText& raw) {
         const std::unique_lock lock(surveying_);
         names_.note(raw);
         if (!fits) return;
-        for (const auto& clip : std::get<std::vector<NamedClip>>(clips)) actions_.insert(clip.action);
+        for (const auto& clip : std::get<std::vector<NamedClip>>(clips)) {
+            actions_.insert(clip.action);
+            if (is_wanted({clip})) fields_of_clips_.insert(clip.fields);
+        }
         if (!is_wanted(std::get<std::vector<NamedClip>>(clips))) return;
         if (Recordings::is_amc(raw) && !recordings_.has_own_asf(raw)) {
             waiting_.push_back({std::string(raw.path), std::string(raw.stem),
@@ -154,6 +157,10 @@ void BvhFormat::settle() {
                     fault_.empty() ? "a file that cannot be read" : printable(fault_));
     decision_ = survey_.decide(options_, settings_);
     if (auto unused = names_.unused_labels(); !unused.empty()) decision_.remarks.push_back(std::move(unused));
+    if (auto one = names_.one_class(classes); !one.empty() && options_.classes.empty())
+        decision_.remarks.push_back(std::move(one));
+    for (auto& line : empty_splits(options_.splits, names_.fields(), fields_of_clips_))
+        decision_.remarks.push_back(std::move(line));
     gather_groups();
     DatasetHeader header;
     header.name = options_.dataset;

@@ -73,8 +73,9 @@ class BvhFormat : public Format {
     Recordings recordings_;
     std::shared_mutex surveying_;
     BvhSurvey survey_;
-    std::set<std::string> actions_;  ///< of all names
-    std::string fault_;              ///< of the first file that fits and is not sound
+    std::set<std::string> actions_;                       ///< of all names
+    std::set<std::vector<std::string>> fields_of_clips_;  ///< of the classes wanted
+    std::string fault_;                                   ///< of the first file that fits and is not sound
     std::uint64_t fault_index_ = 0;
     std::vector<Waiting> waiting_;
     std::map<std::string, Paths> groups_;  ///< files that are persons of one clip, in the source's order

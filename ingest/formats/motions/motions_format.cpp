@@ -214,7 +214,10 @@ void MotionsFormat::settle_classes() {
         file.for_each_clip([&, &from = file](const FoundMotion& motion, std::uint64_t clip) {
             const auto clips = clips_of(from, motion, clip);
             if (const auto* all = std::get_if<std::vector<NamedClip>>(&clips))
-                for (const auto& one : *all) actions.insert(one.action);
+                for (const auto& one : *all) {
+                    actions.insert(one.action);
+                    fields_of_clips_.insert(one.fields);
+                }
         });
     }
     const auto known = [&](const std::string& action) {
@@ -240,8 +243,13 @@ void MotionsFormat::remark() {
                         guesses.size() == 1 ? "an array" : "arrays", first_few(guesses)));
     if (!lengths && datasets_[0].representation == Representation::limb)
         remarks_.emplace_back("the files do not tell how long the limbs are: usual lengths are taken");
-    if (names_)
+    if (names_) {
         if (auto unused = names_->unused_labels(); !unused.empty()) remarks_.push_back(std::move(unused));
+        if (auto one = names_->one_class(datasets_[0].classes); !one.empty())
+            remarks_.push_back(std::move(one));
+    }
+    for (auto& line : empty_splits(options_.splits, datasets_[0].fields, fields_of_clips_))
+        remarks_.push_back(std::move(line));
 }
 
 std::vector<NamedClip> MotionsFormat::told_by_file(const Surveyed& file, const FoundMotion& motion,

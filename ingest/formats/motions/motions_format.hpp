@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include "ingest/formats/clip_names.hpp"
 #include "ingest/formats/format.hpp"
@@ -76,6 +77,7 @@ class MotionsFormat : public Format {
     std::map<std::uint64_t, Surveyed> files_;  ///< by index
     std::size_t folders_ = 0;                  ///< before a clip's name, where the files tell the names
     bool told_classes_ = false;                ///< all files tell the same
+    std::set<std::vector<std::string>> fields_of_clips_;
     std::vector<std::string> remarks_;
     std::vector<DatasetHeader> datasets_;
 };

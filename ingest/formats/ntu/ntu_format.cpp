@@ -115,9 +115,7 @@ void NtuFormat::settle() {
 }
 
 std::vector<std::string> NtuFormat::remarks() const {
-    auto unused = own_ ? own_->unused_labels() : std::string();
-    if (unused.empty()) return {};
-    return {std::move(unused)};
+    return own_ ? own_->remarks() : std::vector<std::string>();
 }
 
 std::string NtuFormat::settings() const {

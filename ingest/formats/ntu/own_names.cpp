@@ -20,7 +20,10 @@ void OwnNames::note(const RawText& raw) {
     const std::lock_guard lock(noting_);
     names_.note(raw);
     if (const auto* all = std::get_if<std::vector<NamedClip>>(&clips))
-        for (const auto& clip : *all) actions_.insert(clip.action);
+        for (const auto& clip : *all) {
+            actions_.insert(clip.action);
+            fields_of_clips_.insert(clip.fields);
+        }
 }
 
 DatasetHeader OwnNames::settle() {
@@ -33,6 +36,15 @@ DatasetHeader OwnNames::settle() {
     header.fields = names_.fields();
     header.splits = options_.splits;
     return header;
+}
+
+std::vector<std::string> OwnNames::remarks() const {
+    std::vector<std::string> lines{names_.unused_labels(),
+                                   names_.one_class({actions_.begin(), actions_.end()})};
+    std::erase(lines, std::string());
+    for (auto& line : empty_splits(options_.splits, names_.fields(), fields_of_clips_))
+        lines.push_back(std::move(line));
+    return lines;
 }
 
 std::string OwnNames::settings() const {

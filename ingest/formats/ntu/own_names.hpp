@@ -37,8 +37,8 @@ class OwnNames {
         return names_.clips_of(raw);
     }
 
-    /// Rows of the labels whose files are not there, in a line; empty where there are none.
-    std::string unused_labels() const { return names_.unused_labels(); }
+    /// After settle(): what the user should know of names, labels and splits, a line each.
+    std::vector<std::string> remarks() const;
 
     /// All that decides names, labels and persons, as text.
     std::string settings() const;
@@ -50,6 +50,7 @@ class OwnNames {
     ClipNames names_;
     std::mutex noting_;
     std::set<std::string> actions_;
+    std::set<std::vector<std::string>> fields_of_clips_;
 };
 
 }  // namespace actformer::ingest

@@ -72,7 +72,8 @@ TEST_F(BvhIngest, FilesOfOneNameInSeveralFoldersAreClips) {
 
 TEST_F(BvhIngest, DoubtsAreCountedWithTheFirstFewClips) {
     for (int i = 1; i < 6; ++i)
-        write(fmt::format("walk_{}.bvh", i), one_person("-900 0 0 0\n1 0 0 0\n2 0 0 0\n"));
+        write(fmt::format("{}_{}.bvh", i < 5 ? "walk" : "weep", i),
+              one_person("-900 0 0 0\n1 0 0 0\n2 0 0 0\n"));
     BvhOptions options;
     options.pattern = "{action}_{index}";
     const auto summary = ingest(options);
@@ -114,6 +115,7 @@ std::string lopsided() {
 
 TEST_F(BvhIngest, ABoneToTheSideLaysNobodyDown) {
     write("walk_1.bvh", lopsided());
+    write("wave_1.bvh", lopsided());
     BvhOptions options;
     options.pattern = "{action}_{index}";
     const auto small = ingest(options);
