@@ -60,6 +60,7 @@ GenerateSummary generate_here(const GenerateRequest& request,
                               const std::function<void(std::uint64_t, std::uint64_t)>& tell) {
     const auto file = load_generator(request.generator);
     const auto labels = labels_wanted(request, file);
+    torch_device(request.device, "--device ");
     const auto maker = file.maker(request.device);
     const auto spec = spec_of(file.subjects, request.generator.string());
     GenerateSummary summary{0,

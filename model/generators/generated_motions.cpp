@@ -122,7 +122,9 @@ Loaded load(const eval::GeneratedRequest& request) {
                   0,
                   request.frames,
                   request.generator};
-    loaded.maker = loaded.file.maker(request.device.empty() ? "cpu" : request.device);
+    const auto device = request.device.empty() ? "cpu" : request.device;
+    torch_device(device, "--generate-on ");
+    loaded.maker = loaded.file.maker(device);
     const auto classes = loaded.file.subjects.classes.size();
     if (loaded.labels.empty()) {
         loaded.labels.resize(classes);

@@ -22,13 +22,18 @@ std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step) {
     return mixed(seed * golden_step + step + 1);
 }
 
-at::Device torch_device(const std::string& name) {
+at::Device torch_device(const std::string& name, const std::string& option) {
     try {
         const at::Device device(name);
         at::zeros({1}, at::TensorOptions().device(device));
         return device;
     } catch (const std::exception&) {
-        throw Error("device {}: this libtorch cannot train there; device=cpu always works", name);
+        if (name.starts_with("cuda") && !at::Context::hasCUDART())
+            throw Error(
+                "device {}: this libtorch was built without CUDA; {}cpu always works, and docs/gpu.md tells "
+                "how to build with one that has it",
+                name, option);
+        throw Error("device {}: libtorch finds none of that name here; {}cpu always works", name, option);
     }
 }
 
@@ -54,11 +59,6 @@ ingest::Dataset dataset_to_train_on(const std::string& data) {
     return ingest::Dataset(ingest::one_dataset_at(data));
 }
 
-std::optional<kernels::Device> device_that_draws(const std::string& opencl,
-                                                 const std::function<void(const std::string&)>& note) {
-    if (opencl == no_opencl) return std::nullopt;
-    const char* set = std::getenv("ACTFORMER_DEVICE");
-    const bool named = !opencl.empty() || (set && *set);
 void check_split(const ingest::Dataset& dataset, const std::string& key, const std::string& split) {
     const auto known = dataset.split_names();
     if (std::ranges::find(known, split) != known.end()) return;
@@ -70,6 +70,11 @@ void check_split(const ingest::Dataset& dataset, const std::string& key, const s
                 remedy);
 }
 
+std::optional<kernels::Device> device_that_draws(const std::string& opencl,
+                                                 const std::function<void(const std::string&)>& note) {
+    if (opencl == no_opencl) return std::nullopt;
+    const char* set = std::getenv("ACTFORMER_DEVICE");
+    const bool named = !opencl.empty() || (set && *set);
     if (named || !kernels::list_devices().empty()) return std::optional<kernels::Device>(opencl);
     if (note) note("no OpenCL device: the processor draws the windows");
     return std::nullopt;

@@ -19,8 +19,8 @@ namespace actformer::model {
 /// A well-mixed number for what is random in step `step`.
 std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step);
 
-/// Throws Error where this libtorch cannot work on `name`, as in "cpu" or "cuda:1".
-at::Device torch_device(const std::string& name);
+/// Throws Error where this libtorch cannot work on `name`, as in "cpu" or "cuda:1"; `option` is what the user names it with.
+at::Device torch_device(const std::string& name, const std::string& option = "device=");
 
 /// For the whole process, which of a GPU's kernels a training takes: float32 is 24 bits everywhere but with `tf32`, also where libtorch
 /// would have it otherwise; with `deterministic` what has no kernel of that kind is an error. Processors' kernels are exact and

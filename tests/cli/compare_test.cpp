@@ -77,6 +77,16 @@ TEST_F(Compare, TakesDifferencesSeedBySeed) {
     EXPECT_NE(read_file(dir / "out/report.html").find("B, other"), std::string::npos);
 }
 
+TEST_F(Compare, ADeviceThatIsNotThereComesWithTheOptionToGive) {
+    expect_refused(
+        run_actformer("generate --generator " + at("one") + " -o " + at("m.h5") + " --device cuda:99"),
+        {"device cuda:99: ", "--device cpu always works"});
+    const auto training = run_actformer("train generator -c " + at("g.yaml") + " --data " + toy().string() +
+                                        " -o " + at("none") + " device=cuda:99");
+    EXPECT_EQ(training.exit, 1);
+    EXPECT_NE(training.output.find("device=cpu always works"), std::string::npos) << training.output;
+}
+
 TEST_F(Compare, AGeneratorIsNoBetterThanItself) {
     const auto result = compare("one", "one/weights-last.h5", "out");
     ASSERT_EQ(result.exit, 0) << result.output;

@@ -40,9 +40,10 @@ TEST(Version, TellsCommitCompilerAndLibraries) {
     EXPECT_EQ(said.exit, 0);
     EXPECT_TRUE(std::regex_search(
         said.output,
-        std::regex("^[0-9]+\\.[0-9]+\\.[0-9]+( \\(commit [0-9a-f]{7,}\\+?\\))?\nbuilt by (GCC|Clang) "
-                   ".+, for .+\nwith OpenCL .+, HDF5 1.+, (without libtorch|libtorch [0-9.]+), "
-                   "(without OpenCV|OpenCV [0-9.]+)\n$")))
+        std::regex(
+            "^[0-9]+\\.[0-9]+\\.[0-9]+( \\(commit [0-9a-f]{7,}\\+?\\))?\nbuilt by (GCC|Clang) "
+            ".+, for .+\nwith OpenCL .+, HDF5 1.+, (without libtorch|libtorch [0-9.]+ with(out)? CUDA), "
+            "(without OpenCV|OpenCV [0-9.]+)\n$")))
         << said.output;
     if (fs::exists(program() + "-train")) {
         EXPECT_NE(said.output.find(", libtorch "), std::string::npos);
