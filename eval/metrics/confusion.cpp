@@ -97,6 +97,17 @@ std::vector<std::vector<std::uint64_t>> Confusion::rows() const {
     return rows;
 }
 
+std::string near_chance(double accuracy, std::size_t classes) {
+    if (classes < 2) return {};
+    const double chance = 1 / static_cast<double>(classes);
+    if (accuracy >= chance + 0.1 * (1 - chance)) return {};
+    return fmt::format(
+        "the recogniser is right on {:.1f} % of the real motions, where guessing among {} classes is right "
+        "on "
+        "{:.1f} %: what it says of generated ones means nothing; train it longer, or on this data",
+        100 * accuracy, classes, 100 * chance);
+}
+
 Confusion confusion_of(const Samples& samples) {
     Confusion confusion(samples.classes);
     const auto classes = static_cast<std::ptrdiff_t>(samples.classes);

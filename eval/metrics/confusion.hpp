@@ -45,6 +45,10 @@ class Confusion {
     std::vector<std::uint64_t> counts_;
 };
 
+/// A warning where a recogniser with this accuracy on real motions (0..1) is hardly better than guessing one of `classes`: within a
+/// tenth of the way from chance to 1. Empty elsewhere.
+std::string near_chance(double accuracy, std::size_t classes);
+
 /// Label against largest logit (of equal ones the first). Its mean_class_accuracy() is the accuracy of the tables: the mean
 /// over the classes that have samples of the share recognised.
 Confusion confusion_of(const Samples& samples);

@@ -182,6 +182,9 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
     warn_of_counts(report);
     warn_of_collapse(report);
     warn_of_floor(report);
+    if (report.real_accuracy)
+        if (auto warning = near_chance(*report.real_accuracy, report.classes.size()); !warning.empty())
+            report.warnings.push_back(std::move(warning));
     return report;
 }
 

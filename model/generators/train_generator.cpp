@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "eval/metrics/confusion.hpp"
 #include "model/generators/generator_file.hpp"
 #include "model/generators/generator_validator.hpp"
 #include "model/nn/blas.hpp"
@@ -23,8 +24,8 @@ TrainingResult train_here(const Config& config, const std::filesystem::path& run
     const auto settings = generator_trainer_settings(config);
     const auto& method = method_named(config.model(), "configuration");
     const auto dataset = dataset_to_train_on(settings.data);
-    const auto subjects = ingest::subjects_of(dataset);
     check_split(dataset, "train_split", settings.train_split);
+    const auto subjects = ingest::subjects_of(dataset);
     const auto spec = spec_of(subjects, dataset.folder().string());
     method.networks(config, spec);  // what cannot be built is refused before the clips are loaded
     const auto place = data_parallel ? place_of(environment) : Place{};
@@ -48,10 +49,14 @@ TrainingResult train_here(const Config& config, const std::filesystem::path& run
     std::unique_ptr<GeneratorValidator> validator;
     if (place.leads() && !settings.recogniser.empty()) {
         validator = std::make_unique<GeneratorValidator>(config, spec, dataset, clips, device_name, *learner);
+        const auto accuracy = validator->metrics().real_accuracy();
         if (events.note)
             events.note(fmt::format("the recogniser knows {:.1f} % of the {} real windows of split {}",
-                                    100 * validator->metrics().real_accuracy(),
-                                    validator->metrics().real_windows(), settings.train_split));
+                                    100 * accuracy, validator->metrics().real_windows(),
+                                    settings.train_split));
+        if (const auto warning = eval::near_chance(accuracy, subjects.classes.size());
+            events.note && !warning.empty())
+            events.note("warning: " + warning);
     }
     const TrainingTask task{method.name, config, settings, dataset,
                             [&](const auto& path, const auto& weights, const auto& notes) {

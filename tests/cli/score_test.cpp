@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/hdf5/reader.hpp"
+#include "eval/metrics/confusion.hpp"
 #include "eval/scoring/features_file.hpp"
 #include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/common_joints.hpp"
@@ -329,6 +330,16 @@ TEST_F(Score, LeavesOutAndNamesClassesOfOneSample) {
                 (json["per_class"][0]["fid"].get<double>() + json["per_class"][3]["fid"].get<double>()) / 2,
                 1e-9);
     EXPECT_NE(json["warnings"][0].get<std::string>().find("A002 (1 real, 9 generated)"), std::string::npos);
+}
+
+TEST_F(Score, WarnsOfARecogniserNearChance) {
+    features("r.h5", labels_of({300, 300, 300}));  // logits are random
+    const auto result = score("--real-features " + at("r.h5") + " --generated-features " + at("r.h5"));
+    EXPECT_NE(result.output.find("% of the real motions, where guessing among 3 classes is right on 33.3 %"),
+              std::string::npos)
+        << result.output;
+    EXPECT_EQ(eval::near_chance(0.5, 3), "");
+    EXPECT_NE(eval::near_chance(0.071, 14), "");
 }
 
 TEST_F(Score, RepeatsHaveAnInterval) {
