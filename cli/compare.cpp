@@ -1,9 +1,12 @@
 // actformer compare: two generators, or two files of motions, beside the same real motions.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <variant>
 
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
@@ -137,7 +140,24 @@ const char* verdict(const Compared& one) {
     return *one.b_better ? "B is better" : "A is better";
 }
 
-void print(const std::vector<Compared>& all, const reports::Sweep& sweep) {
+/// What `score` warned of, once where it is the same of both sides.
+std::vector<std::string> warnings_of(const Json& a, const Json& b) {
+    const auto of = [](const Json& scores) {
+        std::vector<std::string> lines;
+        for (const auto& warning : loose::list(scores, "warnings"))
+            if (warning.is_string()) lines.push_back(warning.get<std::string>());
+        return lines;
+    };
+    const auto of_a = of(a), of_b = of(b);
+    std::vector<std::string> out;
+    for (const auto& line : of_a) out.push_back(std::ranges::count(of_b, line) > 0 ? line : "A: " + line);
+    for (const auto& line : of_b)
+        if (std::ranges::count(of_a, line) == 0) out.push_back("B: " + line);
+    return out;
+}
+
+void print(const std::vector<Compared>& all, const std::vector<std::string>& warnings,
+           const reports::Sweep& sweep) {
     for (const auto& row : sweep.rows) say("{}\n", row.name);
     say("\n{:<18} {:>18} {:>18} {:>18} {:>9}\n", "", "A", "B", "B - A", "real");
     for (const auto& one : all)
@@ -145,6 +165,7 @@ void print(const std::vector<Compared>& all, const reports::Sweep& sweep) {
             text_of(one.b), text_of(one.difference, true), one.real ? reports::figure_text(*one.real) : "",
             verdict(one));
     say("\nintervals of 95 %, of differences seed by seed\n");
+    for (const auto& warning : warnings) say("warning: {}\n", warning);
 }
 
 Json to_json(const eval::Interval& interval) {
@@ -153,7 +174,8 @@ Json to_json(const eval::Interval& interval) {
     return out;
 }
 
-Json to_json(const std::vector<Compared>& all, const fs::path& page) {
+Json to_json(const std::vector<Compared>& all, const std::vector<std::string>& warnings,
+             const fs::path& page) {
     Json metrics = Json::object();
     for (const auto& one : all) {
         auto& entry = metrics[std::string(one.metric->name)];
@@ -161,7 +183,7 @@ Json to_json(const std::vector<Compared>& all, const fs::path& page) {
         if (one.real) entry["real"] = *one.real;
         entry["better"] = one.b_better ? Json(*one.b_better ? "b" : "a") : Json();
     }
-    return {{"metrics", metrics}, {"report", page.string()}};
+    return {{"metrics", metrics}, {"warnings", warnings}, {"report", page.string()}};
 }
 
 /// The table that stands first in the report: both sides, with the metrics that they have.
@@ -178,40 +200,68 @@ void add_table(reports::Sweep& sweep, const std::vector<Compared>& all, const st
     sweep.tables = Json{{"comparison", table}}.dump();  // JSON is YAML
 }
 
+/// Differences are taken seed by seed, and a motions file is of one.
+void refuse_a_mixed_pair(const CompareOptions& options) {
+    if (!fs::exists(options.a) || !fs::exists(options.b) || options.repeats == 1) return;  // said elsewhere
+    const bool a_holds = holds_motions(options.a), b_holds = holds_motions(options.b);
+    if (a_holds == b_holds) return;
+    throw Error(
+        "{} is a generator and {} a motions file, which is one repeat; compare two generators (trainings or "
+        "weights) or two motions files, or give --repeats 1",
+        (a_holds ? options.b : options.a).string(), (a_holds ? options.a : options.b).string());
+}
+
+/// As a sweep tells them, but for the time left where no scoring has been measured: a guess of so little work is far off.
+reports::SweepEvents events_told(const fs::path& out) {
+    auto events = told_events(out);
+    const auto scored = std::make_shared<std::atomic<bool>>(false);
+    events.begins = [scored, begins = events.begins](const reports::Job& job, reports::SweepProgress now) {
+        if (!*scored) now.seconds_left.reset();
+        begins(job, now);
+    };
+    events.ends = [scored, ends = events.ends](const reports::Job& job, const reports::JobStatus& status) {
+        if (std::holds_alternative<reports::ScoringWork>(job.work)) *scored = true;
+        ends(job, status);
+    };
+    return events;
+}
+
 void run(const CompareOptions& options) {
+    refuse_a_mixed_pair(options);
     const auto out = fs::absolute(options.out).lexically_normal();
     auto sweep = comparison(options);
     const SweepJobs jobs((program_folder() / "actformer").string(), out);
     const auto plan = reports::make_plan(sweep, {}, jobs);
     for (const auto& job : plan.jobs)
         if (!job.problem.empty()) throw Error("{}", job.problem);
-    for (const auto& status : reports::run_plan(sweep, plan, {out, jobs}, told_events(out)))
+    for (const auto& status : reports::run_plan(sweep, plan, {out, jobs}, events_told(out)))
         if (status.state != reports::JobState::done) throw Error("{}", why_of(status));
     const auto measured = reports::read_measured({out});
-    const auto all = all_compared(measured.rows[0].runs[0].scored, measured.rows[1].runs[0].scored);
+    const auto &a = measured.rows[0].runs[0].scored, &b = measured.rows[1].runs[0].scored;
+    const auto all = all_compared(a, b);
     if (all.empty())
-        throw Error(
-            "{} and {}: no metric that both have as many repeats of; compare two generators, or two "
-            "files of motions",
-            options.a.string(), options.b.string());
+        throw Error("{} and {}: no metric that both have", options.a.string(), options.b.string());
+    const auto warnings = warnings_of(a, b);
     add_table(sweep, all, fs::absolute(options.real / "").parent_path().filename().string());
     reports::write_results(sweep, plan, out);
     write_report(
         {.folders = {out}, .out = out / "report.html", .title = "A comparison", .filled_only = true});
     if (options.json)
-        fmt::print("{}\n", to_json(all, out / "report.html").dump(2));
+        fmt::print("{}\n", to_json(all, warnings, out / "report.html").dump(2));
     else
-        print(all, sweep);
+        print(all, warnings, sweep);
 }
 
 }  // namespace
 
 void add_compare(CLI::App& app) {
     auto options = std::make_shared<CompareOptions>();
-    auto* command =
-        app.add_subcommand("compare", "Score two generators with the same seeds, and test their differences");
-    command->add_option("a", options->a, "A training, weights of a generator, or motions")->required();
-    command->add_option("b", options->b, "Another of these")->required();
+    auto* command = app.add_subcommand(
+        "compare", "Score two generators, or two motions files, and test their differences");
+    command->add_option("a", options->a, "A generator (a training or weights), or a motions file")
+        ->required();
+    command->add_option("b", options->b, "Another of the same: two generators or two motions files")
+        ->required();
     command->add_option("--recogniser", options->recogniser, "Training or weights of a recogniser")
         ->required();
     command->add_option("--real", options->real, "Dataset of real motions")->required()->type_name("DATASET");
@@ -236,6 +286,7 @@ void add_compare(CLI::App& app) {
         "comparison\n"
         "  actformer compare weights/cmu/actformer.h5 mine.h5 --recogniser weights/cmu/recogniser.h5 --real "
         "cmu -o c\n"
+        "  actformer compare old.h5 new.h5 --recogniser recogniser --real cmu -o motions-compared\n"
         "Differences are taken seed by seed. A difference whose 95 % interval contains 0 is not "
         "significant.\n");
     command->callback([options] { run(*options); });
