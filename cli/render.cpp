@@ -6,6 +6,7 @@
 
 #include "base/files/output.hpp"
 #include "cli/commands.hpp"
+#include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
 #include "reports/motions/gather.hpp"
@@ -40,8 +41,12 @@ void render(const RenderOptions& options) {
     if (!options.body.empty()) wanted.body = std::make_shared<const reports::BodySkin>(options.body);
 
     std::vector<JointMotion> motions;
-    for (const auto& path : options.inputs)
-        for (auto& motion : reports::gather(path, wanted)) motions.push_back(std::move(motion));
+    std::size_t there = 0;
+    for (const auto& path : options.inputs) {
+        std::size_t of_path = 0;
+        for (auto& motion : reports::gather(path, wanted, &of_path)) motions.push_back(std::move(motion));
+        there += of_path;
+    }
     layout.size = options.size > 0                                           ? options.size
                   : kind != reports::PictureKind::png && motions.size() == 1 ? 480
                                                                              : 320;
@@ -55,8 +60,11 @@ void render(const RenderOptions& options) {
     progress.clear();
     std::error_code ignored;
     const auto kilobytes = static_cast<double>(fs::file_size(options.output, ignored)) / 1000;
-    say("{}: {} motion{}{}, {:.0f} kB\n", options.output.string(), motions.size(),
-        motions.size() == 1 ? "" : "s", frames > 0 ? fmt::format(", {} frames", frames) : "", kilobytes);
+    const auto drawn = motions.size() < there ? fmt::format("{} of {} (--count, --per-class)", motions.size(),
+                                                            counted(there, "motion"))
+                                              : counted(motions.size(), "motion");
+    say("{}: {}{}, {:.0f} kB\n", options.output.string(), drawn,
+        frames > 0 ? fmt::format(", {} frames", frames) : "", kilobytes);
 }
 
 }  // namespace

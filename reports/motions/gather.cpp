@@ -79,13 +79,16 @@ std::string title_of(const std::string& name, const std::optional<std::uint32_t>
     return label && *label < classes.size() ? fmt::format("{} · {}", classes[*label], name) : name;
 }
 
-std::vector<std::size_t> picks_of(const ingest::Dataset& dataset, const Wanted& wanted, std::size_t count) {
+std::vector<std::size_t> picks_of(const ingest::Dataset& dataset, const Wanted& wanted, std::size_t count,
+                                  std::size_t& there) {
     const auto where = dataset.folder().string();
     std::vector<Candidate> candidates;
     for (const auto i : dataset.split(wanted.split)) candidates.push_back({i, dataset.clips()[i].label});
     if (candidates.empty())
         throw Error("{}: split '{}' is empty, so there is nothing to draw", where, wanted.split);
-    return chosen(of_class(std::move(candidates), wanted, dataset.header().classes, where), wanted, count);
+    candidates = of_class(std::move(candidates), wanted, dataset.header().classes, where);
+    there += candidates.size();
+    return chosen(candidates, wanted, count);
 }
 
 /// With the body on it where one is wanted.
@@ -131,7 +134,7 @@ void refuse_class(const std::vector<ingest::Dataset>& datasets, const fs::path& 
     ingest::label_called(said, classes, path.string());
 }
 
-std::vector<JointMotion> motions_of_datasets(const fs::path& path, const Wanted& wanted) {
+std::vector<JointMotion> motions_of_datasets(const fs::path& path, const Wanted& wanted, std::size_t& there) {
     const auto folders = ingest::datasets_at(path);
     std::vector<ingest::Dataset> datasets(folders.begin(), folders.end());
     if (!wanted.clips.empty()) return motions_by_name(datasets, path, wanted);
@@ -154,7 +157,7 @@ std::vector<JointMotion> motions_of_datasets(const fs::path& path, const Wanted&
     for (std::size_t d = 0; d < datasets.size(); ++d) {
         const auto count = wanted.count * (d + 1) / datasets.size() - wanted.count * d / datasets.size();
         if (count == 0) continue;
-        for (const auto clip : picks_of(datasets[d], wanted, count))
+        for (const auto clip : picks_of(datasets[d], wanted, count, there))
             motions.push_back(motion_of_clip(datasets[d], clip, wanted));
     }
     return motions;
@@ -170,7 +173,7 @@ std::optional<std::uint32_t> label_of(const std::string& name, const ingest::Des
     return static_cast<std::uint32_t>(std::stoul(digits) - 1);
 }
 
-std::vector<JointMotion> motions_of_motions(const fs::path& path, const Wanted& wanted) {
+std::vector<JointMotion> motions_of_motions(const fs::path& path, const Wanted& wanted, std::size_t& there) {
     if (wanted.split != "all")
         throw Error("{} is a motions file and has no splits; leave --split out", path.string());
     const ingest::DescribedMotions file(path, wanted.bones);
@@ -188,8 +191,9 @@ std::vector<JointMotion> motions_of_motions(const fs::path& path, const Wanted& 
     if (wanted.clips.empty()) {
         std::vector<Candidate> candidates;
         for (std::size_t i = 0; i < names.size(); ++i) candidates.push_back({i, label_of(names[i], file)});
-        picks = chosen(of_class(std::move(candidates), wanted, subjects.classes, path.string()), wanted,
-                       wanted.count);
+        candidates = of_class(std::move(candidates), wanted, subjects.classes, path.string());
+        there += candidates.size();
+        picks = chosen(candidates, wanted, wanted.count);
     }
     std::vector<JointMotion> motions;
     for (const auto i : picks) {
@@ -213,18 +217,23 @@ JointMotion motion_of_raw(const fs::path& path) {
 
 }  // namespace
 
-std::vector<JointMotion> gather(const fs::path& path, const Wanted& wanted) {
+std::vector<JointMotion> gather(const fs::path& path, const Wanted& wanted, std::size_t* there) {
     std::error_code ignored;
+    std::size_t picked_from = 0;
+    const auto told = [&](std::vector<JointMotion> motions) {
+        if (there) *there = std::max(picked_from, motions.size());
+        return motions;
+    };
     if (!fs::exists(path, ignored))
         throw Error("{}: no such file or folder{}", path.string(), did_you_mean(path));
-    if (fs::is_directory(path, ignored)) return motions_of_datasets(path, wanted);
+    if (fs::is_directory(path, ignored)) return told(motions_of_datasets(path, wanted, picked_from));
     if (path.extension() == ".skeleton") {
         if (wanted.body)
             throw Error("{}: a raw capture has no rotations to put a body on; leave --body out",
                         path.string());
-        return {motion_of_raw(path)};
+        return told({motion_of_raw(path)});
     }
-    return motions_of_motions(path, wanted);
+    return told(motions_of_motions(path, wanted, picked_from));
 }
 
 }  // namespace actformer::reports

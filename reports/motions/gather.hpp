@@ -20,7 +20,9 @@ struct Wanted {
     std::shared_ptr<const BodySkin> body;  ///< drawn on rotations of SMPL's joints; null: limbs are drawn
 };
 
-/// The motions wanted of what lies at `path`. Throws Error naming `path` and what it lacks.
-std::vector<JointMotion> gather(const std::filesystem::path& path, const Wanted& wanted);
+/// The motions wanted of what lies at `path`. `there` becomes how many they were picked from, of the split and class that are wanted.
+/// Throws Error naming `path` and what it lacks.
+std::vector<JointMotion> gather(const std::filesystem::path& path, const Wanted& wanted,
+                                std::size_t* there = nullptr);
 
 }  // namespace actformer::reports

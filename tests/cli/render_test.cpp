@@ -43,6 +43,16 @@ TEST_F(Render, TakesClassesOfAMotionsFileFromTheDatasetBesideIt) {
     expect_refused(of_file("cl1"), {motions, "did you mean 'c1'?"});
 }
 
+TEST_F(Render, SaysOfHowManyMotionsItDrewSome) {
+    const auto says = [](const CommandResult& result, const std::string& words) {
+        EXPECT_EQ(result.exit, 0) << result.output;
+        EXPECT_NE(result.output.find("sheet.png: " + words), std::string::npos) << result.output;
+    };
+    says(render("--split s/test"), "1 of 12 motions (--count, --per-class), ");
+    says(render("--split s/test --class c0 --per-class 3"), "3 of 4 motions (--count, --per-class), ");
+    says(render("--clip c0_a_1"), "1 motion, ");
+}
+
 TEST_F(Render, ABodyIsDrawnOnRotations) {
     write_body(dir / "body.npz", made_body());
     write_turning_motion(dir / "walk.h5");
