@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "base/error.hpp"
+#include "base/hdf5/reader.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/described_motions.hpp"
 #include "ingest/dataset/height.hpp"
 
 namespace actformer::cli {
@@ -98,6 +101,39 @@ Json to_json(const ingest::Dataset& dataset) {
             {"classes", classes}};
 }
 
+/// A motions file, as `generate` and `export` make them.
+Json motions_json(const std::string& path) {
+    if (const hdf5::Reader reader(path); reader.has_attribute("model") || reader.has_attribute("kind"))
+        throw Error("{}: a network's weights; inspect takes datasets and motions files", path);
+    const ingest::DescribedMotions file(path);
+    const auto& subjects = file.subjects();
+    std::set<std::uint32_t> labels, lengths;
+    for (const auto& name : file.motions().names()) {
+        if (const auto label = file.label(name)) labels.insert(*label);
+        lengths.insert(file.motions().read(name).frames);
+    }
+    return {{"file", path},
+            {"motions", file.motions().names().size()},
+            {"classes", labels.size()},
+            {"frames", {{"shortest", *lengths.begin()}, {"longest", *lengths.rbegin()}}},
+            {"persons", subjects.persons},
+            {"joints", subjects.topology.names},
+            {"representation", file.motions().representation().name()},
+            {"fps", subjects.fps}};
+}
+
+void print_motions(const Json& file) {
+    const std::uint32_t shortest = file["frames"]["shortest"], longest = file["frames"]["longest"];
+    say("{}: a motions file; actformer render draws it\n  {} of {}, each of {} frames; {} joints in {}, {}, "
+        "{:g} "
+        "frames a second\n",
+        file["file"].get<std::string>(), counted(file["motions"].get<std::uint64_t>(), "motion"),
+        counted(file["classes"].get<std::uint64_t>(), "class"),
+        shortest == longest ? std::to_string(longest) : fmt::format("{} to {}", shortest, longest),
+        file["joints"].size(), file["representation"].get<std::string>(),
+        counted(file["persons"].get<std::uint64_t>(), "person"), file["fps"].get<double>());
+}
+
 /// Tells which kind of checksums the datasets have.
 std::string verify(const std::vector<std::filesystem::path>& folders) {
     bool of_bytes = false;
@@ -122,14 +158,26 @@ void add_inspect(CLI::App& app) {
     };
     auto options = std::make_shared<Options>();
     auto* command = app.add_subcommand("inspect", "Say what is in a dataset, and check that it is whole");
-    command->add_option("dataset", options->dataset, "Dataset folder, or a folder of them")
+    command->add_option("dataset", options->dataset, "Dataset folder, or a folder of them; or a motions file")
         ->required()
-        ->type_name("DATASET");
+        ->type_name("DATASET|MOTIONS.h5");
     command->add_flag("--verify", options->verify, "Read everything and compare every checksum");
     command->add_flag("--classes", options->classes, "List the classes and their clips");
     command->add_flag("--json", options->json, "Print JSON");
-    examples(command, "  actformer inspect ntu\n  actformer inspect ntu/ntu-2p --verify --classes\n");
+    examples(command,
+             "  actformer inspect ntu\n  actformer inspect ntu/ntu-2p --verify --classes\n  actformer "
+             "inspect generated.h5\n");
     command->callback([options] {
+        if (std::filesystem::is_regular_file(options->dataset)) {
+            if (options->verify || options->classes)
+                throw Error("{}: a file; --verify and --classes are for datasets", options->dataset);
+            const auto file = motions_json(options->dataset);
+            if (options->json)
+                fmt::print("{}\n", file.dump(2));
+            else
+                print_motions(file);
+            return;
+        }
         const auto folders = ingest::datasets_at(options->dataset);
         const auto verified = options->verify ? verify(folders) : std::string();
         Json json = Json::array();

@@ -49,6 +49,18 @@ TEST_F(Export, SaysWhatItWrote) {
               std::string::npos);
 }
 
+TEST_F(Export, InspectSaysWhatAMotionsFileHolds) {
+    const auto file = at("all.h5");
+    ASSERT_EQ(run_actformer("export " + toy().string() + " -o " + file).exit, 0);
+    const auto result = run_actformer("inspect " + file);
+    EXPECT_EQ(result.exit, 0);
+    EXPECT_EQ(result.output,
+              file +
+                  ": a motions file; actformer render draws it\n  48 motions of 3 classes, each of "
+                  "40 frames; 7 joints in limb, 1 person, 30 frames a second\n");
+    expect_refused(run_actformer("inspect --verify " + file), {"are for datasets"});
+}
+
 TEST_F(Export, ClassesAreCountedFromOneOrNamed) {
     const ingest::Dataset dataset(toy_pairs());
     const auto& name = dataset.header().classes[1];
