@@ -68,7 +68,8 @@ void add_export(CLI::App& app) {
         ->type_name("OUT");
     command
         ->add_option("--format", request.format,
-                     "Make a folder with a file a clip of this kind: h5, npz, bvh or glb")
+                     "Make a folder with a file a clip of this kind, named after it (CLIP.bvh, CLIP_p1.bvh "
+                     "of several persons): h5, npz, bvh or glb")
         ->type_name("KIND");
     command->add_option("--split", selection.split, "As in xsub/train (default: all clips)");
     command->add_option("--class", selection.label, "Clips of this class: its name, or its number from 1");
@@ -87,13 +88,14 @@ void add_export(CLI::App& app) {
         ->type_name("FILE");
     command->add_flag("--force", request.force, "Replace files that this program did not write");
     command->add_flag("--json", options->json, "Print JSON");
-    examples(
-        command,
-        "  actformer export ntu/ntu-1p -o xsub-train.h5 --split xsub/train\n"
-        "  actformer export ntu/ntu-2p -o joints.npz\n"
-        "  actformer export ntu/ntu-2p -o handshake.glb --class \"shaking hands\" --count 1\n"
-        "  actformer export generated.h5 -o walks/ --format bvh --class walk\n"
-        "  actformer export generated.h5 -o dance.glb --class dance --count 1 --body SMPL_NEUTRAL.pkl\n");
+    examples(command,
+             "  actformer export ntu/ntu-1p -o xsub-train.h5 --split xsub/train\n"
+             "  actformer export ntu/ntu-2p -o joints.npz\n"
+             "  actformer export ntu/ntu-2p -o handshake.glb --class \"shaking hands\" --count 1\n"
+             "  actformer export generated.h5 -o walks/ --format bvh --class walk\n"
+             "  actformer export generated.h5 -o dance.glb --class dance --count 1 --body SMPL_NEUTRAL.pkl\n"
+             "Clips of generate are called A001_0, by the number of their class: `ingest bvh walks --name "
+             "'A{action}_{index}'` reads such files back.\n");
     command->callback([options] { run(*options); });
 }
 

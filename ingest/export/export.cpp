@@ -1,6 +1,8 @@
 #include "ingest/export/export.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
@@ -9,6 +11,7 @@
 #include "ingest/export/fit_name.hpp"
 #include "ingest/export/foreign.hpp"
 #include "ingest/export/skeletons.hpp"
+#include "ingest/formats/name_pattern.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -50,6 +53,37 @@ Target target_of(const ExportRequest& request) {
         throw Error("{}: ends in {}, but --format says {}; leave one of them out", out, ending,
                     request.format);
     return {named, false};
+}
+
+/// Whether `pattern` reads the clips' classes out of their files' names: what they are called, or a number for each.
+bool tells_classes(const NamePattern& pattern, const std::vector<std::string>& files,
+                   const std::vector<ClipEntry>& clips, const std::vector<std::string>& classes) {
+    std::map<std::string, std::uint32_t> class_of_number;
+    std::set<std::uint32_t> numbered;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const auto label = clips[i].label;
+        const auto values = pattern.match(files[i]);
+        if (!values || !label || *label >= classes.size()) return false;
+        const auto& action = (*values)[pattern.action()];
+        if (action == fit_name(classes[*label], NameFor::file)) continue;
+        if (action.size() < 3 || action.find_first_not_of("0123456789") != std::string::npos) return false;
+        if (class_of_number.emplace(action, *label).first->second != *label) return false;
+        numbered.insert(*label);
+    }
+    return numbered.size() == class_of_number.size();
+}
+
+/// How `ingest bvh` reads a folder of these files.
+std::string how_to_read_back(const std::vector<std::string>& files, const std::vector<ClipEntry>& clips,
+                             const Subjects& subjects) {
+    const char* persons = subjects.persons > 1 ? "_p{person}" : "";
+    for (const char* pattern : {"{action}_{index}", "A{action}_{index}", "{*}A{action}"})
+        if (tells_classes(NamePattern(pattern), files, clips, subjects.classes))
+            return fmt::format(
+                "files are named after their clips: `ingest bvh --name '{}{}'` reads them back", pattern,
+                persons);
+    return "files are named after their clips, which do not tell the classes: `ingest bvh --labels` reads "
+           "them back with a table of them";
 }
 
 class Export {
@@ -125,6 +159,11 @@ class Export {
             if (progress) progress(i + 1, picks.size());
         }
         sync_all(request_.out);
+        if (target_.format->name == "bvh") {
+            std::vector<ClipEntry> chosen;
+            for (const auto i : picks) chosen.push_back(source_.clips()[i]);
+            note(how_to_read_back(names, chosen, context_.subjects));
+        }
     }
 
     void check_replaces(const fs::path& path) const {

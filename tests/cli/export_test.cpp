@@ -115,7 +115,11 @@ std::vector<Point> centred(const ingest::ClipSource& source, const ingest::Topol
 
 // Persons and joints, where they stand to each other.
 TEST_F(Export, BvhComesBackThroughIngest) {
-    write("bvh/", "--format bvh");
+    const auto written =
+        run_actformer("export " + toy_pairs().string() + " -o " + at("bvh") + " --format bvh --clip " + clip);
+    EXPECT_NE(written.output.find("`ingest bvh --name '{*}A{action}_p{person}'` reads them back"),
+              std::string::npos)
+        << written.output;
     const auto result =
         run_actformer("ingest bvh " + at("bvh") + " -o " + at("back") + " --name '{*}A{action}_p{person}'");
     ASSERT_EQ(result.exit, 0) << result.output;
@@ -125,6 +129,17 @@ TEST_F(Export, BvhComesBackThroughIngest) {
     const auto want = centred(*before, topology), got = centred(*after, topology);
     ASSERT_EQ(got.size(), want.size());
     for (std::size_t i = 0; i < want.size(); ++i) EXPECT_LT(distance(got[i], want[i]), 1e-5) << i;
+}
+
+TEST_F(Export, SaysHowBvhNamedByClassesIsReadBack) {
+    const auto written = run_actformer("export " + toy().string() + " -o " + at("bvh") + " --format bvh");
+    EXPECT_NE(written.output.find("`ingest bvh --name '{action}_{index}'` reads them back"),
+              std::string::npos)
+        << written.output;
+    ASSERT_EQ(
+        run_actformer("ingest bvh " + at("bvh") + " -o " + at("back") + " --name '{action}_{index}'").exit,
+        0);
+    EXPECT_EQ(ingest::Dataset(dir / "back").header().classes, ingest::Dataset(toy()).header().classes);
 }
 
 TEST_F(Export, PublicLayoutComesBackAsTheSameDataset) {
