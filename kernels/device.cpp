@@ -181,8 +181,10 @@ void raise(const DeviceInfo& device, std::string_view what, const cl::Error& err
         case CL_MEM_OBJECT_ALLOCATION_FAILURE:
         case CL_OUT_OF_HOST_MEMORY:
         case CL_INVALID_BUFFER_SIZE:
-            throw OutOfMemory("device {} ({}): out of memory {}; choose another device, or take less at once", device.index,
-                              device.name, what);
+            throw OutOfMemory(
+                "device {} ({}): out of memory {}; choose another with --device (opencl= in a training) or "
+                "take less at once",
+                device.index, device.name, what);
         default:
             throw Error("device {} ({}): {} failed: {} says {}", device.index, device.name, what,
                         error.what(), error.err());

@@ -48,7 +48,7 @@ std::uint32_t label_called(const std::string& said, const std::vector<std::strin
         throw Error("{}: there is no class {}; its classes have no names, only numbers from 1 on, as in 7",
                     where, shown);
     if (number)
-        throw Error("{}: there is no class {}; they are numbered from 1 to {} ('{}' .. '{}')", where, shown,
+        throw Error("{}: there is no class {}; they are numbered from 1 to {} ('{}' .. '{}')", where, *number,
                     classes.size(), printable(classes.front()), printable(classes.back()));
     const auto nearest = nearest_word(lower(said), classes);
     if (!nearest.empty())
