@@ -124,7 +124,7 @@ std::optional<Compared> compared(const Json& a, const Json& b, const eval::Metri
 std::vector<Compared> all_compared(const Json& a, const Json& b) {
     std::vector<Compared> out;
     for (const auto& metric : eval::metrics())
-        if (auto one = compared(a, b, metric)) out.push_back(std::move(*one));
+        if (auto one = compared(a, b, metric)) out.push_back(*one);
     return out;
 }
 

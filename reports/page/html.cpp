@@ -61,9 +61,9 @@ std::string head(const FilledTable& table) {
                         origin.empty() ? "" : " <small class=\"origin\">" + escaped(origin) + "</small>");
         for (std::size_t m = 0; m < column.metrics.size(); ++m) {
             const auto [text, title] = arrow(column.metrics[m].better);
-            metrics += fmt::format("<th scope=\"col\"{}>{}&nbsp;<span class=\"arrow\" title=\"{}\">{}</span></th>",
-                                   m == 0 ? " class=\"first\"" : "", escaped(column.metrics[m].heading),
-                                   title, text);
+            metrics += fmt::format(
+                "<th scope=\"col\"{}>{}&nbsp;<span class=\"arrow\" title=\"{}\">{}</span></th>",
+                m == 0 ? " class=\"first\"" : "", escaped(column.metrics[m].heading), title, text);
         }
     }
     return fmt::format("<thead><tr><th rowspan=\"2\"></th>{}</tr>\n<tr>{}</tr></thead>\n", groups, metrics);

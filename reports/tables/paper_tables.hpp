@@ -42,7 +42,10 @@ struct PaperFigure {
 /// A metric as a table prints it: as scoring does, or with a heading, scale and direction of the table's own.
 struct ColumnMetric {
     explicit ColumnMetric(const eval::Metric& scored)
-        : name(scored.name), heading(eval::heading_with_unit(scored)), scale(scored.scale), better(scored.direction) {}
+        : name(scored.name),
+          heading(eval::heading_with_unit(scored)),
+          scale(scored.scale),
+          better(scored.direction) {}
 
     std::string name;     ///< in the scores' JSON: "fid_mean"
     std::string heading;  ///< "FIDm"
