@@ -284,7 +284,8 @@ void add_compare(CLI::App& app) {
         command,
         "  actformer compare generator-a generator-b --recogniser recogniser --real cmu --split train -o "
         "comparison\n"
-        "  actformer compare weights/cmu/actformer.h5 mine.h5 --recogniser weights/cmu/recogniser.h5 --real "
+        "  actformer compare weights/cmu/actformer.h5 my-training --recogniser weights/cmu/recogniser.h5 "
+        "--real "
         "cmu -o c\n"
         "  actformer compare old.h5 new.h5 --recogniser recogniser --real cmu -o motions-compared\n"
         "Differences are taken seed by seed. A difference whose 95 % interval contains 0 is not "

@@ -124,9 +124,8 @@ Json motions_json(const std::string& path) {
 
 void print_motions(const Json& file) {
     const std::uint32_t shortest = file["frames"]["shortest"], longest = file["frames"]["longest"];
-    say("{}: a motions file; actformer render draws it\n  {} of {}, each of {} frames; {} joints in {}, {}, "
-        "{:g} "
-        "frames a second\n",
+    say("{}: a motions file; actformer render draws it\n"
+        "  {} of {}, each of {} frames; {} joints in {}, {}, {:g} frames a second\n",
         file["file"].get<std::string>(), counted(file["motions"].get<std::uint64_t>(), "motion"),
         counted(file["classes"].get<std::uint64_t>(), "class"),
         shortest == longest ? std::to_string(longest) : fmt::format("{} to {}", shortest, longest),

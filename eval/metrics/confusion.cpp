@@ -103,8 +103,7 @@ std::string near_chance(double accuracy, std::size_t classes) {
     if (accuracy >= chance + 0.1 * (1 - chance)) return {};
     return fmt::format(
         "the recogniser is right on {:.1f} % of the real motions, where guessing among {} classes is right "
-        "on "
-        "{:.1f} %: what it says of generated ones means nothing; train it longer, or on this data",
+        "on {:.1f} %: what it says of generated ones means nothing; train it longer, or on this data",
         100 * accuracy, classes, 100 * chance);
 }
 

@@ -186,6 +186,12 @@ std::string ClipNames::one_class(const std::vector<std::string>& classes) const 
                        of_folder ? "{action}_{index}" : "{action}/{index}");
 }
 
+std::vector<std::string> ClipNames::remarks(const std::vector<std::string>& classes) const {
+    std::vector<std::string> lines{unused_labels(), one_class(classes)};
+    std::erase(lines, std::string());
+    return lines;
+}
+
 std::string ClipNames::unused_labels() const {
     std::vector<std::string> files;
     for (std::size_t r = 0; r < used_.size(); ++r)

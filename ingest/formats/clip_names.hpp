@@ -53,10 +53,13 @@ class ClipNames {
     /// Rows of the labels whose files are not there, in a line; empty where there are none.
     std::string unused_labels() const;
 
-    /// What to do where all clips are of one of `classes`, in a line; empty where they are of several.
-    std::string one_class(const std::vector<std::string>& classes) const;
+    /// What the user should know of the labels and of `classes`, a line each: rows whose files are not there, and all clips of one class.
+    std::vector<std::string> remarks(const std::vector<std::string>& classes) const;
 
   private:
+    /// What to do where `classes` are one, in a line; empty where they are several.
+    std::string one_class(const std::vector<std::string>& classes) const;
+
     /// What is known of a file but for the names of its clips.
     struct Known {
         std::vector<std::string> fields;  ///< of the pattern, those kept

@@ -12,6 +12,7 @@
 #include "base/process/shipped.hpp"
 #include "eval/run_weights.hpp"
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/dataset_json.hpp"
 #include "reports/sweep/configuration.hpp"
 
 namespace actformer::reports {
@@ -347,9 +348,9 @@ class SplitCheck {
         const auto [found, fresh] = splits_.try_emplace(path);
         if (!fresh || !fs::exists(path)) return found->second;
         try {
-            const ingest::Dataset dataset(ingest::one_dataset_at(path));
+            const auto file = ingest::read_dataset_json(ingest::one_dataset_at(path) / "dataset.json");
             found->second = {"all"};
-            for (const auto& split : dataset.header().splits) found->second.push_back(split.name);
+            for (const auto& split : file.header.splits) found->second.push_back(split.name);
         } catch (const Error&) {  // whoever uses it will say why
         }
         return found->second;

@@ -156,9 +156,9 @@ void BvhFormat::settle() {
         throw Error("no BVH file is sound; the first fault is in {}",
                     fault_.empty() ? "a file that cannot be read" : printable(fault_));
     decision_ = survey_.decide(options_, settings_);
-    if (auto unused = names_.unused_labels(); !unused.empty()) decision_.remarks.push_back(std::move(unused));
-    if (auto one = names_.one_class(classes); !one.empty() && options_.classes.empty())
-        decision_.remarks.push_back(std::move(one));
+    const bool all_classes = options_.classes.empty();
+    for (auto& line : names_.remarks(all_classes ? classes : std::vector<std::string>()))
+        decision_.remarks.push_back(std::move(line));
     for (auto& line : empty_splits(options_.splits, names_.fields(), fields_of_clips_))
         decision_.remarks.push_back(std::move(line));
     gather_groups();

@@ -243,11 +243,8 @@ void MotionsFormat::remark() {
                         guesses.size() == 1 ? "an array" : "arrays", first_few(guesses)));
     if (!lengths && datasets_[0].representation == Representation::limb)
         remarks_.emplace_back("the files do not tell how long the limbs are: usual lengths are taken");
-    if (names_) {
-        if (auto unused = names_->unused_labels(); !unused.empty()) remarks_.push_back(std::move(unused));
-        if (auto one = names_->one_class(datasets_[0].classes); !one.empty())
-            remarks_.push_back(std::move(one));
-    }
+    if (names_)
+        for (auto& line : names_->remarks(datasets_[0].classes)) remarks_.push_back(std::move(line));
     for (auto& line : empty_splits(options_.splits, datasets_[0].fields, fields_of_clips_))
         remarks_.push_back(std::move(line));
 }

@@ -39,9 +39,7 @@ DatasetHeader OwnNames::settle() {
 }
 
 std::vector<std::string> OwnNames::remarks() const {
-    std::vector<std::string> lines{names_.unused_labels(),
-                                   names_.one_class({actions_.begin(), actions_.end()})};
-    std::erase(lines, std::string());
+    auto lines = names_.remarks({actions_.begin(), actions_.end()});
     for (auto& line : empty_splits(options_.splits, names_.fields(), fields_of_clips_))
         lines.push_back(std::move(line));
     return lines;
