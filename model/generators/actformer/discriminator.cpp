@@ -35,21 +35,26 @@ ActFormerDiscriminator::ActFormerDiscriminator(ActFormerDiscriminatorSettings se
     node_sums_.push_back(std::make_shared<cpu::NodeSums>(1, 1, coarse, std::vector<float>(coarse, 1)));
 }
 
-/// x (N, C, K, T): the nodes' own convolutions as groups of one, then the sums into output nodes.
+/// x (K, N, T, C): the nodes' own convolutions as matrix products, one a node, then the sums into output nodes. cuDNN launches a kernel a
+/// group for each of a grouped convolution's passes; its gradients alone took four times as long.
 at::Tensor ActFormerDiscriminator::convolved(const at::Tensor& x, std::size_t i) const {
     const auto& conv = convolutions_[i];
     const auto name = fmt::format("convs.{}.", i);
-    const auto n = x.size(0), in = x.size(1), nodes = x.size(2), t = x.size(3);
+    const auto taken =  // (K, N, T', C, taps)
+        at::constant_pad_nd(x, {0, 0, conv.padding, conv.padding}).unfold(2, conv.taps, conv.stride);
+    const std::int64_t nodes = x.size(0), n = x.size(1), t = taken.size(2), of_window = x.size(3) * conv.taps,
+                       hops = conv.sums.hops, outputs = conv.sums.outputs;
+    const auto windows = taken.transpose(3, 4).reshape({nodes, n * t, of_window});
     const auto weight = weights_.normalised(name + "weight", is_training())
-                            .view({nodes * 2 * conv.out, std::int64_t{conv.taps}, in})
-                            .transpose(1, 2)
-                            .unsqueeze(2);
-    const auto bias = conv.bias ? weights_.at(name + "bias") : at::Tensor();
-    auto y = at::conv2d(x.transpose(1, 2).reshape({n, nodes * in, 1, t}), weight, bias,
-                        at::IntArrayRef{1, conv.stride}, at::IntArrayRef{0, conv.padding}, 1, nodes);
-    y = y.view({n, nodes, 2 * conv.out, -1}).permute({0, 3, 1, 2});  // (N, T, nodes, hops * out)
-    y = y.reshape({n, y.size(1), nodes, 2, conv.out}).transpose(2, 3);
-    return at::leaky_relu(at::matmul(sums_[i], y).sum(2), leak).permute({0, 3, 2, 1});
+                            .view({nodes, hops * conv.out, of_window})
+                            .transpose(1, 2);
+    const auto y =
+        conv.bias ? at::baddbmm(weights_.at(name + "bias").view({nodes, 1, hops * conv.out}), windows, weight)
+                  : at::bmm(windows, weight);
+    const auto by_hop =
+        y.view({nodes, n * t, hops, conv.out}).permute({2, 0, 1, 3}).reshape({hops * nodes, -1});
+    const auto sums = sums_[i].transpose(0, 1).reshape({outputs, hops * nodes});
+    return at::leaky_relu(at::mm(sums, by_hop).view({outputs, n, t, conv.out}), leak);
 }
 
 /// Motions (N, C, T, K) with their differences over frames behind their channels, and behind those their joints' velocities, 0 in the
@@ -69,10 +74,10 @@ at::Tensor ActFormerDiscriminator::seen(const at::Tensor& motion) const {
 /// (N, features) of motions (N, C, T, K).
 at::Tensor ActFormerDiscriminator::features(const at::Tensor& motion) const {
     if (takes_fused_path(motion)) return fused_features(motion);
-    auto x = seen(motion).transpose(2, 3);
+    auto x = seen(motion).permute({3, 0, 2, 1});
     for (std::size_t i = 0; i < convolutions_.size(); ++i) x = convolved(x, i);
     const auto last = weights_.normalised("last.weight", is_training()).permute({0, 3, 1, 2});
-    x = at::conv2d(x, last, weights_.at("last.bias"), at::IntArrayRef{1, 2},
+    x = at::conv2d(x.permute({1, 3, 0, 2}), last, weights_.at("last.bias"), at::IntArrayRef{1, 2},
                    at::IntArrayRef{0, last_padding});
     return at::leaky_relu(x, leak).sum({2, 3});
 }
