@@ -11,6 +11,7 @@
 #include "model/generators/adversarial/prior.hpp"
 #include "model/nn/adam.hpp"
 #include "model/nn/array.hpp"
+#include "model/nn/recorded_work.hpp"
 #include "model/train/augmentation.hpp"
 #include "model/train/processes.hpp"
 
@@ -51,7 +52,10 @@ class Gan {
 
   private:
     void count(std::uint64_t steps);
-    at::Tensor fake(const at::Tensor& latent, const at::Tensor& labels);
+    void take(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw);
+    void discriminator_gradients(std::uint64_t draw);
+    void generator_gradients(std::uint64_t draw);
+    at::Tensor fake();
     at::Tensor latent(const at::Tensor& labels, std::uint64_t draw);
     std::vector<at::Tensor> optimiser_state();
     at::Tensor augmented(const at::Tensor& motion, std::uint64_t draw) const;
@@ -65,6 +69,8 @@ class Gan {
     FlatParameters generator_parameters_, discriminator_parameters_;
     std::optional<FlatParameters> ema_parameters_;  ///< where an EMA is kept
     Adam generator_adam_, discriminator_adam_;
+    RecordedWork discriminator_work_, generator_work_;  ///< forward and backward passes
+    at::Tensor real_, labels_, latent_;                 ///< what they are about
     double rate_share_ = 1;
     at::Tensor sums_;
 };

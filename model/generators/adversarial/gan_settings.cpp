@@ -30,7 +30,10 @@ const KeyTable<GanSettings>& table() {
         add_adam_keys(keys);
         add_ema_key(keys);
         keys.add(&Settings::bf16,
-                 {.name = "bf16", .meaning = "on CUDA: matrix products and convolutions in bfloat16"});
+                 {.name = "bf16", .meaning = "on CUDA: matrix products and convolutions in bfloat16"})
+            .add(&Settings::cuda_graphs,
+                 {.name = "cuda_graphs",
+                  .meaning = "on CUDA: a step's kernels are recorded and launched together"});
         add_augmentation_keys(keys);
         return keys;
     }();

@@ -24,8 +24,8 @@ struct GanSettings : AugmentationSettings {
     double beta1 = 0, beta2 = 0.999;  ///< of Adam
     double spread =
         0;  ///< weight of the loss that keeps motions of a class as far apart as real ones; 0: none
-    double average = 0;  ///< decay a step of the generator's EMA; 0 keeps none
-    bool bf16 = false;
+    double average = 0;                     ///< decay a step of the generator's EMA; 0 keeps none
+    bool bf16 = false, cuda_graphs = true;  ///< on CUDA
 
     AdamSettings generator_adam() const { return {generator_rate, beta1, beta2}; }
     AdamSettings discriminator_adam() const { return {discriminator_rate, beta1, beta2}; }
