@@ -24,7 +24,7 @@ def main():
     networks = runpy.run_path(os.path.join(o.folder, 'actformer_speed.py'))
     generator = networks['Generator'](o.persons, o.classes, o.frames).to(device)
     discriminator = networks['Discriminator'](3 * o.persons, o.classes).to(device)
-    adams = [torch.optim.Adam(net.parameters(), 2e-4, (0, .999)) for net in (generator, discriminator)]
+    adams = [torch.optim.Adam(net.parameters(), 2e-4, (0., .999)) for net in (generator, discriminator)]
     made, judged = (torch.compile(net) if o.compile else net for net in (generator, discriminator))
     real = torch.randn(o.batch, 3 * o.persons, 25, o.frames, device=device)
 
