@@ -85,23 +85,19 @@ build() {
     say "built: $BUILD/actformer"
 }
 
-# Runs a command for so many seconds at most. Exit code `fine` is a success too.
+# Runs a command for so many seconds at most. Exit code `fine` is a success too. Of a crash, a debugger that is there says where it was.
 step() { # name seconds command...
-    local name=$1 limit=$2 from=$EPOCHREALTIME code=0 said
+    local name=$1 limit=$2 from=$EPOCHREALTIME said debugger
     shift 2
-    if [ "$listing" = yes ]; then printf '%-26s %5s s  %s\n' "$name" "$limit" "$*"; return; fi
+    code=0
+    if [ "$listing" = yes ]; then printf '%-32s %5s s  %s\n' "$name" "$limit" "$*"; return; fi
     timeout --kill-after=20 "$limit" "$@" >"$logs/$name.out" 2>"$logs/$name.err" || code=$?
     [ "$code" != "${fine:-0}" ] || code=0
     said=$([ "$code" = 0 ] || cat "$logs/$name.out" "$logs/$name.err" | tr '\r\t' '\n ' | grep . | tail -n 1 || true)
+    if [ "$code" = 139 ] && debugger=$(command -v gdb || command -v cuda-gdb); then
+        timeout --kill-after=5 60 "$debugger" -batch -ex run -ex 'bt 25' --args "$@" >"$logs/$name.backtrace" 2>&1 || true
+    fi
     printf '%s\t%s\t%s\t%s\n' "$name" "$code" "$(awk "BEGIN { printf \"%.1f\", $EPOCHREALTIME - $from }")" "$said" | tee -a "$logs/steps.tsv" | cut -c1-150
-}
-
-# Trains for so many seconds, and then keeps where it is as on any SIGTERM.
-train() { # name seconds override...
-    local name=$1 seconds=$2
-    shift 2
-    fine=143 step "train-$name" $((seconds + 60)) timeout --preserve-status "$seconds" "$program" train generator \
-        -c model/configs/actformer-ntu-2p.yaml --data "$run/ntu/ntu-2p" -o "$run/$name" device="$device" checkpoint_minutes=60 epochs=1000000 "$@"
 }
 
 # A line of each OpenCL device's kind: gpu, cpu. NVIDIA's driver may lie where no file tells of it.
@@ -126,7 +122,8 @@ find_opencl() {
 
 # Kernels, features and trainings: all that needs OpenCL.
 check_program() {
-    local kind precision features=()
+    local kind precision graphs features=()
+    local train=("$program" train generator -c model/configs/actformer-ntu-2p.yaml --data "$run/ntu/ntu-2p" device="$device" batch="$batch")
     local -A bf16=([float32]=false [bf16]=true)
     for kind in "${kinds[@]}"; do
         step "kernels-$kind" 240 env ACTFORMER_DEVICE="$kind" "$BUILD/test_kernels" --gtest_brief=1 --gtest_output="json:$logs/kernels-$kind.json"
@@ -135,14 +132,29 @@ check_program() {
 
     step synth 120 "$program" synth ntu -o "$run/raw" --clips "$clips" --actions 50-60,106-120
     step ingest 120 "$program" ingest ntu "$run/raw" -o "$run/ntu"
+    # A training opens OpenCL beside libtorch. Where another driver than the GPU's does not bear that, what follows goes without it.
+    step train-first 120 "${train[@]}" -o "$run/first" epochs=1
+    if [ "$code" != 0 ] && [ "$OCL_ICD_VENDORS" = "$WORK/vendors" ] && [ -e "$WORK/vendors/nvidia.icd" ]; then
+        find "$WORK/vendors" -name '*.icd' ! -name nvidia.icd -delete
+        kinds=(gpu)
+        step train-first-without-other-drivers 120 "${train[@]}" -o "$run/first-without-other-drivers" epochs=1
+    fi
     for precision in "${precisions[@]}"; do
-        train "$precision" "$short" batch="$batch" bf16="${bf16[$precision]}"
+        for graphs in "${graphs_on[@]}"; do
+            step "bench-train-$precision-graphs-$graphs" 120 "$program" bench train --method actformer --persons 2 --classes 26 --batch "$batch" \
+                --rounds "$rounds" --threads "$(nproc)" --json device="$device" bf16="${bf16[$precision]}" cuda_graphs="$graphs" discriminator_steps=4
+        done
     done
-    for precision in "${precisions[@]}"; do
-        step "bench-train-$precision" 240 "$program" bench train --method actformer --persons 2 --classes 26 --batch "$batch" --rounds "$rounds" --json \
-            device="$device" bf16="${bf16[$precision]}" discriminator_steps=4
+    # Recorded once and launched kernel by kernel, passes give the same bits; and a group of processes may be one.
+    for graphs in true false; do
+        step "train-graphs-$graphs" 120 "${train[@]}" -o "$run/graphs-$graphs" deterministic=true cuda_graphs="$graphs" epochs="$few"
     done
-    train full-size "$STEP" batch="$batch" bf16="${bf16[${precisions[-1]}]}"
+    step same-losses 60 "$PYTHON" "$here/figures.py" same "$run"/graphs-{true,false}/log.jsonl
+    step train-data-parallel 120 env RANK=0 WORLD_SIZE=1 LOCAL_RANK=0 MASTER_ADDR=127.0.0.1 MASTER_PORT=29517 \
+        "${train[@]}" -o "$run/data-parallel" --data-parallel epochs="$few"
+    # Stopped as by any SIGTERM, it keeps where it is.
+    fine=143 step train-full-size $((STEP + 60)) timeout --preserve-status "$STEP" "${train[@]}" -o "$run/full-size" \
+        checkpoint_minutes=60 epochs=1000000 bf16="${bf16[${precisions[-1]}]}"
 
     # What the GPU trained and generated, through the recogniser in OpenCL on each device and in PyTorch on the processor.
     step recogniser 240 "$program" train recogniser -c model/configs/recogniser-ntu-2p.yaml --data "$run/ntu/ntu-2p" -o "$run/recogniser" \
@@ -164,8 +176,8 @@ check_pytorch() {
     local precision flags how ways=(eager)
     [ -e "$PEERS/actformer_speed.py" ] || { say "no $PEERS/actformer_speed.py: PyTorch's speed is left out"; return; }
     "$PYTHON" -c 'import sys, torch; sys.exit(not hasattr(torch, "compile"))' 2>/dev/null && ways+=(compiled)
-    for precision in "${precisions[@]}"; do
-        for how in "${ways[@]}"; do
+    for how in "${ways[@]}"; do
+        for precision in "${precisions[@]}"; do
             flags=(--persons 2 --classes 26 --batch "$batch" --rounds "$rounds")
             [ "$precision" = float32 ] || flags+=(--bf16)
             [ "$how" = eager ] || flags+=(--compile)
@@ -175,26 +187,31 @@ check_pytorch() {
     done
 }
 
+write_figures() {
+    "$PYTHON" "$here/figures.py" write "$logs" "$run" "$device" >"$OUT/figures.json"
+}
+
 check() {
     program=$BUILD/actformer
     device=${CUDA_DEVICE:-$("$PYTHON" -c 'import torch; print("cuda" if torch.cuda.is_available() else "cpu")' 2>/dev/null || echo cpu)}
     # The paper's batches, and clips for ten steps of an epoch.
-    batch=64 feature_batch=64 clips=5200 short=30 rounds=5 precisions=(float32 bf16)
+    batch=64 feature_batch=64 clips=5200 few=4 rounds=10 precisions=(float32 bf16) graphs_on=(true false)
     if [ "$device" = cpu ]; then
-        batch=4 feature_batch=4 clips=208 short=5 rounds=1 precisions=(float32) STEP=${STEP:-10}
+        batch=4 feature_batch=4 clips=208 few=1 rounds=1 precisions=(float32) graphs_on=(true) STEP=${STEP:-10}
     fi
     STEP=${STEP:-300}
     export XDG_CACHE_HOME=$WORK/cache OMP_WAIT_POLICY=passive
-    kinds=(gpu cpu)
+    code=0 kinds=(gpu cpu)
     if [ "$listing" = no ]; then
         rm -rf "$run"
         mkdir -p "$run" "$OUT"
         find_opencl
     fi
+    [ "$listing" = yes ] || trap 'write_figures; exit 1' TERM  # of what was measured until then
     if ((${#kinds[@]})); then check_program; fi
     check_pytorch
     [ "$listing" = no ] || return 0
-    "$PYTHON" "$here/figures.py" write "$logs" "$run" "$device" >"$OUT/figures.json"
+    write_figures
     say "$OUT/figures.json"
     awk -F '\t' '$2 { failed = 1 } END { exit failed }' "$logs/steps.tsv"
 }

@@ -2,6 +2,7 @@
 """What check.sh measured, as JSON.
 
 usage: figures.py write LOGS RUN DEVICE       its figures, from the logs of its steps and the trainings in RUN
+       figures.py same LOG LOG                whether two trainings had the same losses to the last bit
        figures.py agreement FEATURES.h5...    how far features lie apart; fails where it is more than a thousandth of the largest
 """
 import json
@@ -57,6 +58,9 @@ def steps(logs):
         out.append({'name': name, 'exit': int(code), 'seconds': float(seconds)})
         if int(code):
             out[-1]['said'] = said
+        backtrace = logs / f'{name}.backtrace'
+        if backtrace.exists():
+            out[-1]['backtrace'] = [line for line in text(backtrace).splitlines() if line.startswith('#')]
     return out
 
 
@@ -104,8 +108,17 @@ def write(logs, run, device):
         'training': {log.parent.name: read_with(training, log) for log in sorted(run.glob('*/log.jsonl'))},
         'bench_train': each('bench-train-', '.out', bench_train),
         'pytorch': each('pytorch-', '.out', pytorch),
+        'same_losses_with_and_without_graphs': read_with(parsed, logs / 'same-losses.out'),
         'agreement': read_with(parsed, logs / 'agreement.out'),
     }
+
+
+def same(logs):
+    losses = [[[epoch[key] for key in ('discriminator_loss', 'generator_loss')] for epoch in map(json.loads, text(pathlib.Path(log)).splitlines())]
+              for log in logs]
+    alike = bool(losses[0]) and losses[0] == losses[1]
+    print(json.dumps(alike))
+    return not alike
 
 
 def agreement(files):
@@ -122,6 +135,8 @@ def agreement(files):
 def main(arguments):
     if arguments[:1] == ['agreement']:
         return agreement(arguments[1:])
+    if arguments[:1] == ['same'] and len(arguments) == 3:
+        return same(arguments[1:])
     if arguments[:1] != ['write'] or len(arguments) != 4:
         print(__doc__, file=sys.stderr)
         return 2

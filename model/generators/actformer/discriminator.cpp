@@ -35,8 +35,8 @@ ActFormerDiscriminator::ActFormerDiscriminator(ActFormerDiscriminatorSettings se
     node_sums_.push_back(std::make_shared<cpu::NodeSums>(1, 1, coarse, std::vector<float>(coarse, 1)));
 }
 
-/// x (K, N, T, C): the nodes' own convolutions as matrix products, one a node, then the sums into output nodes. cuDNN launches a kernel a
-/// group for each of a grouped convolution's passes; its gradients alone took four times as long.
+/// x (K, N, T, C): the nodes' own convolutions as matrix products, one a node, then the sums into output nodes. (cuDNN launches a kernel
+/// a group for each of a grouped convolution's passes.)
 at::Tensor ActFormerDiscriminator::convolved(const at::Tensor& x, std::size_t i) const {
     const auto& conv = convolutions_[i];
     const auto name = fmt::format("convs.{}.", i);
