@@ -1,5 +1,6 @@
-# The rooms' sources for clang-tidy: all of build/lint/compile_commands.json but tests, generated ones, and those that include libtorch,
-# whose 1.13 headers are not C++20 to clang 14. Usage: lintable.py ROOT
+# What clang-tidy reads: of build/lint/compile_commands.json the rooms' sources, but no generated ones, no tests, and none that include libtorch,
+# whose 1.13 headers are not C++20 to clang 14. What is compiled together stays together, in pieces of its own below build/lint/pieces, with a
+# compile_commands.json for them all. Prints them, the longest first. Usage: lintable.py ROOT
 import json
 import pathlib
 import re
@@ -20,7 +21,36 @@ def includes_torch(path):
     return reaches[path]
 
 
-for source in dict.fromkeys(pathlib.Path(entry["file"]) for entry in json.loads((root / "build/lint/compile_commands.json").read_text())):
-    below = source.relative_to(root) if source.is_relative_to(root) else None
-    if below and below.parts[0] not in ("tests", "build") and not includes_torch(source):
-        print(below)
+def of_a_room(source):
+    return source.is_relative_to(root) and source.relative_to(root).parts[0] not in ("tests", "build")
+
+
+def compiled(entry):
+    """The sources of an entry: those of a piece, or itself."""
+    path = pathlib.Path(entry["file"])
+    if path.parent.name == "Unity":
+        return [pathlib.Path(name) for name in re.findall(r'^#include "([^"]+)"', path.read_text(), re.M)]
+    return [path]
+
+
+def piece(number, sources):
+    """A source of its own, or a file that includes them all."""
+    if len(sources) == 1:
+        return sources[0]
+    path = pieces / f"{number}.cpp"
+    path.write_text("".join(f'#include "{source}"\n' for source in sources))
+    return path
+
+
+pieces = root / "build/lint/pieces"
+pieces.mkdir(exist_ok=True)
+commands, sizes = [], {}
+for number, entry in enumerate(json.loads((root / "build/lint/compile_commands.json").read_text())):
+    sources = [source for source in compiled(entry) if of_a_room(source) and not includes_torch(source)]
+    if sources and sources[0] not in sizes:
+        path = piece(number, sources)
+        commands.append({**entry, "command": entry["command"].replace(entry["file"], str(path)), "file": str(path)})
+        sizes[path] = len(sources)
+(pieces / "compile_commands.json").write_text(json.dumps(commands))
+for path in sorted(sizes, key=sizes.get, reverse=True):
+    print(path)
