@@ -55,9 +55,26 @@ std::string why_of(const reports::JobStatus& status) {
     return status.why.starts_with(name) ? status.why.substr(name.size()) : status.why;
 }
 
-reports::SweepRow side(const char* letter, const fs::path& path, const CompareOptions& options) {
+/// As much of the end of `path` as tells it from `other`.
+std::string name_beside(const fs::path& path, const fs::path& other) {
+    const auto whole = [](const fs::path& of) {
+        return fs::absolute(of / "").lexically_normal().parent_path();
+    };
+    auto rest = whole(path), against = whole(other);
+    auto name = rest.filename().string();
+    if (rest == against) return name;
+    while (rest.filename() == against.filename() && rest.has_relative_path() && against.has_relative_path()) {
+        rest = rest.parent_path();
+        against = against.parent_path();
+        name += " of " + rest.filename().string();  // names of tables' rows hold no /
+    }
+    return name;
+}
+
+reports::SweepRow side(const char* letter, const fs::path& path, const fs::path& other,
+                       const CompareOptions& options) {
     reports::SweepRow row;
-    row.name = fmt::format("{}, {}", letter, fs::absolute(path / "").parent_path().filename().string());
+    row.name = fmt::format("{}, {}", letter, name_beside(path, other));
     row.data = "real";
     row.recogniser = "recogniser";
     row.split = options.split;
@@ -77,7 +94,7 @@ reports::Sweep comparison(const CompareOptions& options) {
     sweep.name = "comparison";
     sweep.datasets["real"].path = options.real.string();
     sweep.recognisers["recogniser"].weights = options.recogniser.string();
-    sweep.rows = {side("A", options.a, options), side("B", options.b, options)};
+    sweep.rows = {side("A", options.a, options.b, options), side("B", options.b, options.a, options)};
     return sweep;
 }
 

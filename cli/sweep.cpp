@@ -18,6 +18,7 @@
 #include "cli/sweep_jobs.hpp"
 #include "reports/page/training.hpp"
 #include "reports/sweep/run.hpp"
+#include "reports/sweep/split_check.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -131,6 +132,13 @@ void refuse_other_folders(const fs::path& out) {
     if (held) throw Error("{}: holds {}, not a sweep; choose another -o", out.string(), held);
 }
 
+/// After a dry run has told them one by one.
+void refuse_what_cannot_be_done(const reports::Plan& plan, const fs::path& file) {
+    const auto count = std::ranges::count_if(plan.jobs, [](const auto& job) { return !job.problem.empty(); });
+    if (count > 0)
+        throw Error("{}: {} of {} cannot be done", file.string(), count, counted(plan.jobs.size(), "job"));
+}
+
 void run(SweepOptions options) {
     if (options.program.empty()) options.program = (program_folder() / "actformer").string();
     options.out = fs::absolute(options.out).lexically_normal();
@@ -160,6 +168,7 @@ void run(SweepOptions options) {
         else
             print_plan(plan, options, jobs);
         if (options.status && !options.json) print_rows(sweep, plan, options);
+        if (options.dry_run) refuse_what_cannot_be_done(plan, options.file);
         return;
     }
     run_here(sweep, plan, options, jobs);

@@ -19,6 +19,18 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+Json json_of(const ValidationReport& report) {
+    return {{"epoch", report.epoch}, {"step", report.step}, {"values", report.values}};
+}
+
+ValidationReport report_from(const Json& json) {
+    ValidationReport report;
+    report.epoch = json.at("epoch");
+    report.step = json.at("step");
+    report.values = json.at("values");
+    return report;
+}
+
 class Loop {
   public:
     Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Validator* validator,
@@ -137,9 +149,10 @@ void Loop::resume() {
         for (std::size_t i = 0; i < sums.size(); ++i) learner_.sums()[static_cast<std::int64_t>(i)] = sums[i];
         epoch_seconds_ = state.at("seconds");
         if (validator_ && state.contains("best") && state.at("scorer") == validator_->fingerprint()) {
-            const auto& best = state.at("best");
-            best_ = ValidationReport{best.at("epoch"), best.at("step"), best.at("values"), true};
-            best_selection_score_ = best.at("merit");
+            best_ = report_from(state.at("best"));
+            best_->best = true;
+            best_selection_score_ = state.at("best").at("merit");
+            if (state.contains("last")) last_ = report_from(state.at("last"));
         }
         if (epoch() > settings_.epochs)
             say(fmt::format("{} epochs are done, more than epochs={}: nothing is left to train", epoch(),
@@ -266,11 +279,11 @@ Json Loop::state_now() {
                {"sums", sums_},
                {"seconds", epoch_seconds_ + seconds_since(epoch_start_)}};
     if (validator_) state["scorer"] = validator_->fingerprint();
-    if (best_)
-        state["best"] = {{"epoch", best_->epoch},
-                         {"step", best_->step},
-                         {"values", best_->values},
-                         {"merit", best_selection_score_}};
+    if (best_) {
+        state["best"] = json_of(*best_);
+        state["best"]["merit"] = best_selection_score_;
+    }
+    if (last_) state["last"] = json_of(*last_);
     return state;
 }
 

@@ -32,10 +32,6 @@ struct Plan {
 /// problem of the jobs that need it.
 Plan make_plan(const Sweep& sweep, const std::filesystem::path& beside, const JobRunner& runner);
 
-/// Throws Error where a row or recogniser of the sweep in `file` names a split that its dataset has not. Looks at the datasets that are there,
-/// those that were made in `out` before among them.
-void check_splits(const std::filesystem::path& file, const Plan& plan, const std::filesystem::path& out);
-
 /// `path` with {out} and {job} put in.
 std::string filled_in(std::string path, const std::filesystem::path& out, const Job& job);
 

@@ -97,6 +97,13 @@ TEST(BenchTrain, RefusesAFolderWithoutThePeer) {
                    {"/nowhere", "actformer_speed.py", "--peers"});
 }
 
+TEST(BenchTrain, RefusesSettingsThatItHasOptionsFor) {
+    if (!has_training()) GTEST_SKIP() << "this build has no libtorch";
+    const std::string bench = "bench train --method actformer --frames 16 --batch 1 --rounds 1 ";
+    expect_refused(run_actformer(bench + "threads=1"), {"threads=1", "--threads"});
+    expect_refused(run_actformer(bench + "data=cmu"), {"data=cmu", "invented motions"});
+}
+
 TEST(BenchTrain, OpenBlasUsesTheProcessorsVectorsUnlessToldOtherwise) {
     if (!has_training()) GTEST_SKIP() << "this build has no libtorch";
 #if !defined(__x86_64__)

@@ -50,9 +50,12 @@ Json json_in(const std::string& text) {
 }  // namespace
 
 TEST_F(Compare, TakesDifferencesSeedBySeed) {
-    const auto result = compare("one", "other", "out", " --json");
+    const auto result = compare("one/weights-last.h5", "other/weights-last.h5", "out", " --json");
     ASSERT_EQ(result.exit, 0) << result.output;
     const auto rows = Json::parse(read_file(dir / "out/results.json"))["rows"];
+    EXPECT_EQ(rows[0]["name"], "A, weights-last.h5 of one")
+        << "files of one name are told apart by their folders";
+    EXPECT_EQ(rows[1]["name"], "B, weights-last.h5 of other");
     const auto repeats = [&](std::size_t row) {
         const auto scores = rows[row]["runs"][0]["scores"].get<std::string>();
         return Json::parse(read_file(dir / "out" / scores))["fid_whole"]["repeats"]
@@ -73,8 +76,8 @@ TEST_F(Compare, TakesDifferencesSeedBySeed) {
     const auto report = run_actformer("report " + at("out") + " --json");
     const auto first = Json::parse(report.output.substr(report.output.find('{')))["tables"][0];
     EXPECT_EQ(first["title"], "Comparison");
-    EXPECT_EQ(first["rows"][1]["name"], "B, other");
-    EXPECT_NE(read_file(dir / "out/report.html").find("B, other"), std::string::npos);
+    EXPECT_EQ(first["rows"][1]["name"], "B, weights-last.h5 of other");
+    EXPECT_NE(read_file(dir / "out/report.html").find("B, weights-last.h5 of other"), std::string::npos);
 }
 
 TEST_F(Compare, ADeviceThatIsNotThereComesWithTheOptionToGive) {

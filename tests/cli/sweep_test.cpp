@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <set>
+#include <sstream>
 #include <thread>
 
 #include "tests/support/paths.hpp"
@@ -211,6 +212,15 @@ TEST_F(Sweep, PrintsItsPlanAndChangesNothing) {
     EXPECT_NE(status.output.find("2 of 2 rows done"), std::string::npos) << status.output;
 }
 
+TEST_F(Sweep, ADryRunFailsWhereAJobCannotBeDone) {
+    sweep_file("  full: {config: none.yaml}\n");
+    const auto plan = sweep("--dry-run");
+    EXPECT_NE(plan.exit, 0) << plan.output;
+    EXPECT_NE(plan.output.find("cannot be done: "), std::string::npos) << plan.output;
+    EXPECT_NE(plan.output.find("sweep.yaml: "), std::string::npos) << plan.output;
+    EXPECT_FALSE(fs::exists(at("out")));
+}
+
 TEST_F(Sweep, GoesOnWhereverItsConfigurationsLie) {
     sweep_file(two_rows);
     ASSERT_EQ(sweep().exit, 0);
@@ -356,7 +366,12 @@ TEST(SweepFiles, AreSound) {
         ++files;
         const auto result = run_command("cd " + source("") + " && " + program() + " sweep " +
                                         entry.path().string() + " -o /nonexistent/out --dry-run");
-        EXPECT_EQ(result.exit, 0) << result.output;
+        std::istringstream lines(result.output);
+        for (std::string line; std::getline(lines, line);)
+            EXPECT_TRUE(line.find("cannot be done: ") == std::string::npos ||
+                        line.find("no such file or folder") != std::string::npos)
+                << entry.path() << ": wants more than data: " << line;
+        EXPECT_NE(result.output.find("jobs to do"), std::string::npos) << result.output;
     }
     EXPECT_EQ(files, 9U);
 }

@@ -165,6 +165,7 @@ TEST_F(TrainGenerator, LogsLossesAndScoresAndKeepsTheBest) {
     const auto json = nlohmann::json::parse(result.output);
     // 36 clips in batches of 6, four discriminator's steps a step: an epoch takes two.
     EXPECT_EQ(json.at("steps"), 6);
+    EXPECT_EQ(json.at("last").at("step"), 6);
     double best = 1e300;
     std::size_t scored = 0;
     for (const auto& entry : log_of(dir / "run"))
@@ -179,6 +180,9 @@ TEST_F(TrainGenerator, LogsLossesAndScoresAndKeepsTheBest) {
     EXPECT_EQ(json.at("best").at("fid_whole"), best);
     EXPECT_EQ(Reader(dir / "run/weights-best.h5").attribute_texts("step")[0],
               std::to_string(json.at("best").at("step").get<int>()));
+    const auto again =
+        train("run", "epochs=3 score_every=1 score_per_class=4 --json " + recogniser() + " 2>/dev/null");
+    EXPECT_EQ(again.output, result.output) << "a finished training tells the same again";
 }
 
 TEST_F(TrainGenerator, TwoProcessesAreOneWithTwiceTheBatch) {
