@@ -145,14 +145,14 @@ void print_json(const model::MethodSpeed& test, const std::vector<Row>& rows) {
     fmt::print("{}\n", out.dump(2));
 }
 
-/// The program and its peer take turns, so that a busy machine disturbs them alike; each keeps its best.
-/// Settings that this benchmark has options for, or makes no use of.
+/// Keys that would have no effect here.
 void refuse_override(const std::string& assignment) {
     const auto key = assignment.substr(0, assignment.find('='));
     if (key == "threads") throw Error("{}: --threads says how many, the peer's too", assignment);
     if (key == "data") throw Error("{}: invented motions are timed; leave it out", assignment);
 }
 
+/// The program and its peer take turns, so that a busy machine disturbs them alike; each keeps its best.
 void run(const BenchTrainOptions& options) {
     auto request = options.request;
     for (const auto& assignment : request.overrides) refuse_override(assignment);

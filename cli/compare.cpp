@@ -63,9 +63,10 @@ std::string name_beside(const fs::path& path, const fs::path& other) {
     auto rest = whole(path), against = whole(other);
     auto name = rest.filename().string();
     if (rest == against) return name;
-    while (rest.filename() == against.filename() && rest.has_relative_path() && against.has_relative_path()) {
+    while (rest.filename() == against.filename()) {
         rest = rest.parent_path();
         against = against.parent_path();
+        if (!rest.has_filename()) break;
         name += " of " + rest.filename().string();  // names of tables' rows hold no /
     }
     return name;

@@ -61,12 +61,9 @@ class Buffer {
 
     /// `spare` values behind the others may be read by kernels, which make no use of them.
     Buffer(Device& device, std::size_t count, std::size_t spare = 0) : device_(&device), count_(count) {
-        // OpenCL has no empty buffers: an empty one has a spare value.
-        const auto bytes = std::max<std::size_t>(count + spare, 1) * sizeof(T);
         try {
-            // NVIDIA's driver gives out memory that it does not have, and fails where it is used.
-            if (bytes > device.info().max_allocation) throw cl::Error(CL_INVALID_BUFFER_SIZE);
-            memory_ = device.memory().take(bytes);
+            // OpenCL has no empty buffers: an empty one has a spare value.
+            memory_ = device.memory().take(std::max<std::size_t>(count + spare, 1) * sizeof(T));
         } catch (const cl::Error& e) {
             raise(device.info(), fmt::format("allocating {} bytes", count * sizeof(T)), e);
         }

@@ -129,7 +129,8 @@ Device::Device(std::string_view wish) {
     // PoCL allocates memory that the host reaches at once, and reports there where there is too little; other memory it allocates
     // at first use, and ends the process.
     memory_ = std::make_shared<MemoryPool>(
-        context_, CL_MEM_READ_WRITE | (info_.shares_memory ? cl_mem_flags{CL_MEM_ALLOC_HOST_PTR} : 0));
+        context_, CL_MEM_READ_WRITE | (info_.shares_memory ? cl_mem_flags{CL_MEM_ALLOC_HOST_PTR} : 0),
+        info_.max_allocation);
     programs_ = std::make_unique<ProgramCache>(context_, device_);
 }
 

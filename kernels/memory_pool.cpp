@@ -19,7 +19,9 @@ std::size_t rounded_up(std::size_t bytes) {
 
 std::shared_ptr<const cl::Buffer> MemoryPool::take(std::size_t bytes) {
     if (bytes < smallest_kept) return std::make_shared<const cl::Buffer>(context_, flags_, bytes);
-    const auto wanted = rounded_up(bytes);
+    // NVIDIA's driver gives out buffers that it has no memory for, and fails where they are used.
+    if (bytes > largest_) throw cl::Error(CL_INVALID_BUFFER_SIZE);
+    const auto wanted = std::min(rounded_up(bytes), largest_);
     auto block = found(wanted);
     if (!block.memory()) block = {wanted, allocated(wanted)};
     const auto lease = std::make_shared<Block>(std::move(block));

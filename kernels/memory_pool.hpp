@@ -12,7 +12,9 @@ namespace actformer::kernels {
 /// Calls may come from any thread.
 class MemoryPool : public std::enable_shared_from_this<MemoryPool> {
   public:
-    MemoryPool(cl::Context context, cl_mem_flags flags) : context_(std::move(context)), flags_(flags) {}
+    /// Buffers are of `largest` bytes at most.
+    MemoryPool(cl::Context context, cl_mem_flags flags, std::size_t largest)
+        : context_(std::move(context)), flags_(flags), largest_(largest) {}
 
     /// `bytes` of memory or some more, its content undefined. Comes back to the pool when the last copy of the pointer goes, in
     /// whatever thread. Commands of the device's one queue may still use it then: they come before those of its next user.
@@ -31,6 +33,7 @@ class MemoryPool : public std::enable_shared_from_this<MemoryPool> {
 
     cl::Context context_;
     cl_mem_flags flags_;
+    std::size_t largest_;
     std::mutex mutex_;
     std::deque<Block> free_;  ///< the one that came back longest ago first
     std::size_t free_bytes_ = 0;

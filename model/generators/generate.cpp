@@ -10,6 +10,7 @@
 #include "ingest/dataset/motions_file.hpp"
 #include "model/generators/generator_file.hpp"
 #include "model/nn/blas.hpp"
+#include "model/nn/one_line.hpp"
 #include "model/train/training.hpp"
 
 namespace actformer::model {

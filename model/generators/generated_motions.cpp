@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "model/generators/generator_file.hpp"
 #include "model/nn/blas.hpp"
+#include "model/nn/one_line.hpp"
 #include "model/train/training.hpp"
 
 namespace actformer::model {

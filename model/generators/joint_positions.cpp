@@ -26,14 +26,14 @@ at::Tensor limbs_to_joints(const MotionSpec& spec) {
 }  // namespace
 
 JointPositions::JointPositions(const MotionSpec& spec) : representation_(spec.representation) {
-    if (representation_ == ingest::Representation::limb) limbs_to_joints_ = limbs_to_joints(spec);
+    if (representation_ == ingest::Representation::limb) limbs_to_joints_ = Constant(limbs_to_joints(spec));
     if (representation_ == ingest::Representation::rot6d) rest_.emplace(spec.topology, spec.rest, spec.where);
 }
 
 at::Tensor JointPositions::of(const at::Tensor& motion) const {
     switch (representation_) {
         case ingest::Representation::limb:
-            return at::matmul(motion, limbs_to_joints_.to(motion.options().requires_grad(false)));
+            return at::matmul(motion, limbs_to_joints_.beside(motion));
         case ingest::Representation::rot6d: {
             const auto from_root = rest_->positions_in(motion);
             const auto n = motion.size(0), t = motion.size(2), joints = from_root.size(3);

@@ -7,6 +7,7 @@
 
 #include "model/generators/method.hpp"
 #include "model/generators/rest_joints.hpp"
+#include "model/nn/constant.hpp"
 
 namespace actformer::model {
 
@@ -21,7 +22,7 @@ class JointPositions {
 
   private:
     ingest::Representation representation_;
-    at::Tensor limbs_to_joints_;  ///< (K, joints) metres: what a limb adds to each joint's position
+    Constant limbs_to_joints_;  ///< (K, joints) metres: what a limb adds to each joint's position
     std::optional<RestJoints> rest_;
 };
 

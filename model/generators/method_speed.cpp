@@ -14,6 +14,7 @@
 #include "model/generators/generator_settings.hpp"
 #include "model/generators/method.hpp"
 #include "model/nn/blas.hpp"
+#include "model/nn/cuda_graph.hpp"
 #include "model/train/learner.hpp"
 #include "model/train/training.hpp"
 
@@ -140,8 +141,8 @@ struct MethodSpeed::Parts {
 MethodSpeed::MethodSpeed(const MethodSpeedRequest& request) {
     set_threads(request.threads);
     parts_ = std::make_unique<Parts>(request);
-    // What is made once is made, CUDA's graphs in the fourth call.
-    for (int i = parts_->torch.is_cpu() ? 1 : 4; i > 0; --i, ++parts_->round)
+    // What is made once is made, CUDA's graphs last.
+    for (int i = parts_->torch.is_cpu() ? 1 : CudaGraph::warmup_calls + 1; i > 0; --i, ++parts_->round)
         for (const auto& work : parts_->works) parts_->run(work);
 }
 

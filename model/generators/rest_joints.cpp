@@ -9,8 +9,8 @@
 namespace actformer::model {
 namespace {
 
-at::Tensor numbers_of(const std::vector<std::int64_t>& values) {
-    return at::tensor(values, at::kLong);
+Constant numbers_of(const std::vector<std::int64_t>& values) {
+    return Constant(at::tensor(values, at::kLong));
 }
 
 /// (M, n, 6) -> (M, n, 3, 3).
@@ -52,8 +52,8 @@ RestJoints::RestJoints(const ingest::Topology& topology, const std::vector<float
             }
         level = std::move(next);
         if (!level.empty())
-            levels_.push_back(
-                {numbers_of(level), numbers_of(parents), offsets.index_select(0, numbers_of(level))});
+            levels_.push_back({numbers_of(level), numbers_of(parents),
+                               Constant(offsets.index_select(0, at::tensor(level, at::kLong)))});
     }
     place_ = numbers_of(place);
     cpu::RestSkeleton skeleton;
@@ -67,21 +67,20 @@ RestJoints::RestJoints(const ingest::Topology& topology, const std::vector<float
 }
 
 at::Tensor RestJoints::positions(const at::Tensor& rotations) const {
-    const auto to = [&](const at::Tensor& x) { return x.to(rotations.device()); };
     const auto matrices = matrices_of(rotations);
-    auto turned = matrices.index_select(1, to(levels_[0].joints));
+    auto turned = matrices.index_select(1, levels_[0].joints.beside(rotations));
     auto position = at::zeros({rotations.size(0), 1, 3}, rotations.options());
     std::vector<at::Tensor> all{position};
     for (std::size_t i = 1; i < levels_.size(); ++i) {
         const auto& level = levels_[i];
-        const auto parents = to(level.parents);
+        const auto parents = level.parents.beside(rotations);
         const auto above = turned.index_select(1, parents);
-        position = position.index_select(1, parents) +
-                   above.matmul(level.offsets.to(rotations.options())).squeeze(-1);
-        turned = above.matmul(matrices.index_select(1, to(level.joints)));
+        position =
+            position.index_select(1, parents) + above.matmul(level.offsets.beside(rotations)).squeeze(-1);
+        turned = above.matmul(matrices.index_select(1, level.joints.beside(rotations)));
         all.push_back(position);
     }
-    return at::cat(all, 1).index_select(1, to(place_));
+    return at::cat(all, 1).index_select(1, place_.beside(rotations));
 }
 
 /// The last node is the translation.

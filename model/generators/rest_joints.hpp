@@ -9,6 +9,7 @@
 
 #include "ingest/dataset/topology.hpp"
 #include "model/cpu/turned_joints.hpp"
+#include "model/nn/constant.hpp"
 
 namespace actformer::model {
 
@@ -32,11 +33,11 @@ class RestJoints {
   private:
     /// Joints as far from the root as each other.
     struct Level {
-        at::Tensor joints, parents;  ///< (n) int64; parents are counted within the level before
-        at::Tensor offsets;          ///< (n, 3, 1) from the parent
+        Constant joints, parents;  ///< (n) int64; parents are counted within the level before
+        Constant offsets;          ///< (n, 3, 1) from the parent
     };
     std::vector<Level> levels_;
-    at::Tensor place_;  ///< (joints) of a joint among all levels'
+    Constant place_;  ///< (joints) of a joint among all levels'
     std::shared_ptr<const cpu::RestSkeleton> skeleton_;
 };
 

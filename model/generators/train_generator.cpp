@@ -7,6 +7,7 @@
 #include "model/generators/generator_file.hpp"
 #include "model/generators/generator_validator.hpp"
 #include "model/nn/blas.hpp"
+#include "model/nn/one_line.hpp"
 #include "model/train/trainer.hpp"
 #include "model/train/training.hpp"
 

@@ -9,6 +9,7 @@
 #include "base/text/first_few.hpp"
 #include "ingest/dataset/view.hpp"
 #include "model/nn/blas.hpp"
+#include "model/nn/one_line.hpp"
 #include "model/recognisers/learner.hpp"
 #include "model/recognisers/stgcn_file.hpp"
 #include "model/train/trainer.hpp"

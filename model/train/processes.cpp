@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "base/error.hpp"
+#include "model/nn/one_line.hpp"
 
 #if defined(ACTFORMER_GLOO) || defined(ACTFORMER_NCCL)
 #define ACTFORMER_C10D
@@ -95,9 +96,8 @@ Processes::Processes(Place place, const at::Device& device)
         group_->store = c10::make_intrusive<c10d::PrefixStore>(place_.prefix, group_->tcp);
         group_->work = collective_on(device, group_->store, place_);
     } catch (const c10::Error& e) {
-        const std::string text = e.what_without_backtrace();
         throw Error("rank {} of {}: no meeting at {}:{}: {}", place_.rank, place_.size, place_.address,
-                    place_.port, text.substr(0, text.find('\n')));
+                    place_.port, one_line(e));
     }
 }
 

@@ -112,9 +112,4 @@ at::Tensor labels_of(const Windows& windows, const at::Device& device) {
     return sent(labels, device);
 }
 
-std::string one_line(const c10::Error& error) {
-    const std::string text = error.what_without_backtrace();
-    return text.substr(0, text.find('\n'));
-}
-
 }  // namespace actformer::model

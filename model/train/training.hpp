@@ -57,7 +57,4 @@ at::Tensor values_of(const Windows& windows, std::int64_t channels, std::int64_t
                      const at::Device& device);
 at::Tensor labels_of(const Windows& windows, const at::Device& device);
 
-/// libtorch's exception as one line without its stack.
-std::string one_line(const c10::Error& error);
-
 }  // namespace actformer::model

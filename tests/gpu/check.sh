@@ -98,6 +98,7 @@ step() { # name seconds command...
         timeout --kill-after=5 60 "$debugger" -batch -ex run -ex 'bt 25' --args "$@" >"$logs/$name.backtrace" 2>&1 || true
     fi
     printf '%s\t%s\t%s\t%s\n' "$name" "$code" "$(awk "BEGIN { printf \"%.1f\", $EPOCHREALTIME - $from }")" "$said" | tee -a "$logs/steps.tsv" | cut -c1-150
+    "$PYTHON" "$here/figures.py" write "$logs" "$run" "$device" >"$OUT/figures.json"  # of what was measured until now
 }
 
 # A line of each OpenCL device's kind: gpu, cpu. NVIDIA's driver may lie where no file tells of it.
@@ -145,11 +146,15 @@ check_program() {
                 --rounds "$rounds" --threads "$(nproc)" --json device="$device" bf16="${bf16[$precision]}" cuda_graphs="$graphs" discriminator_steps=4
         done
     done
-    # Recorded once and launched kernel by kernel, passes give the same bits; and a group of processes may be one.
+    for graphs in "${graphs_on[@]}"; do
+        step "bench-train-csgn-graphs-$graphs" 120 "$program" bench train --method csgn --persons 2 --classes 26 --batch "$batch" \
+            --rounds "$rounds" --threads "$(nproc)" --json device="$device" cuda_graphs="$graphs"
+    done
+    # Captured as graphs and launched kernel by kernel, passes give the same bits; and a group of processes may be one.
     for graphs in true false; do
         step "train-graphs-$graphs" 120 "${train[@]}" -o "$run/graphs-$graphs" deterministic=true cuda_graphs="$graphs" epochs="$few"
     done
-    step same-losses 60 "$PYTHON" "$here/figures.py" same "$run"/graphs-{true,false}/log.jsonl
+    [ "$device" = cpu ] || step same-losses 60 "$PYTHON" "$here/figures.py" same "$run"/graphs-{true,false}/log.jsonl
     step train-data-parallel 120 env RANK=0 WORLD_SIZE=1 LOCAL_RANK=0 MASTER_ADDR=127.0.0.1 MASTER_PORT=29517 \
         "${train[@]}" -o "$run/data-parallel" --data-parallel epochs="$few"
     # Stopped as by any SIGTERM, it keeps where it is.
@@ -187,13 +192,12 @@ check_pytorch() {
     done
 }
 
-write_figures() {
-    "$PYTHON" "$here/figures.py" write "$logs" "$run" "$device" >"$OUT/figures.json"
+find_device() {
+    device=${CUDA_DEVICE:-$("$PYTHON" -c 'import torch; print("cuda" if torch.cuda.is_available() else "cpu")' 2>/dev/null || echo cpu)}
 }
 
 check() {
     program=$BUILD/actformer
-    device=${CUDA_DEVICE:-$("$PYTHON" -c 'import torch; print("cuda" if torch.cuda.is_available() else "cpu")' 2>/dev/null || echo cpu)}
     # The paper's batches, and clips for ten steps of an epoch.
     batch=64 feature_batch=64 clips=5200 few=4 rounds=10 precisions=(float32 bf16) graphs_on=(true false)
     if [ "$device" = cpu ]; then
@@ -204,14 +208,12 @@ check() {
     code=0 kinds=(gpu cpu)
     if [ "$listing" = no ]; then
         rm -rf "$run"
-        mkdir -p "$run" "$OUT"
+        mkdir -p "$run"
         find_opencl
     fi
-    [ "$listing" = yes ] || trap 'write_figures; exit 1' TERM  # of what was measured until then
     if ((${#kinds[@]})); then check_program; fi
     check_pytorch
     [ "$listing" = no ] || return 0
-    write_figures
     say "$OUT/figures.json"
     awk -F '\t' '$2 { failed = 1 } END { exit failed }' "$logs/steps.tsv"
 }
@@ -221,7 +223,8 @@ case "${1:-}" in
     pack | unpack | build) "$1" ;;
     check | all)
         rm -rf "$logs"
-        mkdir -p "$logs"
+        mkdir -p "$logs" "$OUT"
+        find_device
         if [ "$1" = all ] && [ "$own_build" != no ]; then
             step unpack 120 "$here/check.sh" unpack
             step build 900 "$here/check.sh" build
@@ -230,6 +233,7 @@ case "${1:-}" in
         ;;
     list)
         listing=yes
+        find_device
         check
         ;;
     *)

@@ -35,22 +35,22 @@ ActFormerDiscriminator::ActFormerDiscriminator(ActFormerDiscriminatorSettings se
     node_sums_.push_back(std::make_shared<cpu::NodeSums>(1, 1, coarse, std::vector<float>(coarse, 1)));
 }
 
-/// x (K, N, T, C): the nodes' own convolutions as matrix products, one a node, then the sums into output nodes. (cuDNN launches a kernel
-/// a group for each of a grouped convolution's passes.)
+/// x (K, N, T, C) -> (output nodes, N, T', out): the nodes' own convolutions as matrix products, one a node, then the sums into output
+/// nodes. (cuDNN launches a kernel a group for each of a grouped convolution's passes.)
 at::Tensor ActFormerDiscriminator::convolved(const at::Tensor& x, std::size_t i) const {
     const auto& conv = convolutions_[i];
     const auto name = fmt::format("convs.{}.", i);
-    const auto taken =  // (K, N, T', C, taps)
-        at::constant_pad_nd(x, {0, 0, conv.padding, conv.padding}).unfold(2, conv.taps, conv.stride);
-    const std::int64_t nodes = x.size(0), n = x.size(1), t = taken.size(2), of_window = x.size(3) * conv.taps,
-                       hops = conv.sums.hops, outputs = conv.sums.outputs;
-    const auto windows = taken.transpose(3, 4).reshape({nodes, n * t, of_window});
+    const auto windows =
+        under_taps(at::constant_pad_nd(x, {0, 0, conv.padding, conv.padding}), conv.taps, conv.stride);
+    const std::int64_t nodes = x.size(0), n = x.size(1), t = windows.size(2), hops = conv.sums.hops,
+                       outputs = conv.sums.outputs;
+    const auto rows = windows.flatten(1, 2);  // (K, N * T', taps * C)
     const auto weight = weights_.normalised(name + "weight", is_training())
-                            .view({nodes, hops * conv.out, of_window})
+                            .view({nodes, hops * conv.out, rows.size(2)})
                             .transpose(1, 2);
     const auto y =
-        conv.bias ? at::baddbmm(weights_.at(name + "bias").view({nodes, 1, hops * conv.out}), windows, weight)
-                  : at::bmm(windows, weight);
+        conv.bias ? at::baddbmm(weights_.at(name + "bias").view({nodes, 1, hops * conv.out}), rows, weight)
+                  : at::bmm(rows, weight);
     const auto by_hop =
         y.view({nodes, n * t, hops, conv.out}).permute({2, 0, 1, 3}).reshape({hops * nodes, -1});
     const auto sums = sums_[i].transpose(0, 1).reshape({outputs, hops * nodes});

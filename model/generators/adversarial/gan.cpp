@@ -16,19 +16,16 @@ at::Tensor discriminator_loss(Loss loss, const at::Tensor& real, const at::Tenso
     return at::relu(1 - real).mean() + at::relu(1 + fake).mean();
 }
 
-/// Whether the passes of every step are the same but for what they read.
-bool always_alike(const GanSettings& s) {
-    return s.mirror == 0 && s.turn == 0 && s.spread == 0;
+/// Augmentation draws its random numbers on the host.
+bool augments(const GanSettings& settings) {
+    return settings.mirror > 0 || settings.turn > 0;
 }
 
-/// Puts values where those of the step before were, so that work once recorded finds them; on processors it takes them as they are.
-void put(at::Tensor& to, const at::Tensor& values) {
-    if (values.is_cpu())
-        to = values;
-    else if (to.defined() && to.sizes() == values.sizes())
-        to.copy_(values);
-    else
-        to = values.clone();
+/// Into the memory of the step before, where graphs read it.
+void replace(at::Tensor& held, const at::Tensor& values) {
+    if (!held.defined()) held = at::empty_like(values);
+    TORCH_CHECK(held.sizes() == values.sizes(), "steps of one training have batches of one size");
+    held.copy_(values, /*non_blocking=*/true);
 }
 
 }  // namespace
@@ -45,8 +42,9 @@ Gan::Gan(const GanSettings& settings, GanNetworks networks, const at::Device& de
       discriminator_parameters_(networks_.discriminator->parameters(), 3),
       generator_adam_(generator_parameters_, settings.generator_adam()),
       discriminator_adam_(discriminator_parameters_, settings.discriminator_adam()),
-      discriminator_work_(device, settings.cuda_graphs && always_alike(settings)),
-      generator_work_(device, settings.cuda_graphs && always_alike(settings)),
+      discriminator_graph_(device, settings.cuda_graphs && !augments(settings)),
+      // The loss of `spread` sorts labels, which may wait for the device.
+      generator_graph_(device, settings.cuda_graphs && !augments(settings) && settings.spread == 0),
       sums_(at::zeros({4}, at::TensorOptions(at::kDouble).device(device))) {
     if (networks_.ema) ema_parameters_.emplace(networks_.ema->parameters());
     share(0);
@@ -56,11 +54,11 @@ at::Tensor Gan::latent(const at::Tensor& labels, std::uint64_t draw) {
     const auto first = static_cast<std::uint64_t>(processes_.place().rank * labels.size(0));
     const auto frames = networks_.generator->latent_frames(settings_.frames);
     const auto drawn = prior_.draw(draw, labels.size(0), frames, first);
-    return device_.is_cpu() ? drawn : drawn.pin_memory().to(device_, at::kFloat, /*non_blocking=*/true);
+    return device_.is_cpu() ? drawn : drawn.pin_memory();
 }
 
-at::Tensor Gan::fake() {
-    return networks_.generator->generate(latent_, labels_, settings_.frames);
+at::Tensor Gan::fake(const Inputs& in) {
+    return networks_.generator->generate(in.latent, in.labels, settings_.frames);
 }
 
 /// Every process augments its motions in its own way.
@@ -70,24 +68,28 @@ at::Tensor Gan::augmented(const at::Tensor& motion, std::uint64_t draw) const {
                                                      static_cast<std::uint64_t>(processes_.place().rank)));
 }
 
-/// What a step's passes read.
-void Gan::take(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw) {
-    put(real_, real);
-    put(labels_, labels);
-    put(latent_, latent(labels, draw));
+Gan::Inputs Gan::inputs(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw) {
+    const auto z = latent(labels, draw);
+    if (device_.is_cpu()) return {real, labels, z};
+    replace(static_inputs_.real, real);
+    replace(static_inputs_.labels, labels);
+    if (!static_inputs_.latent.defined())
+        static_inputs_.latent = at::empty_like(z, at::TensorOptions(device_));
+    replace(static_inputs_.latent, z);
+    return static_inputs_;
 }
 
-void Gan::discriminator_gradients(std::uint64_t draw) {
+void Gan::discriminator_gradients(const Inputs& in, std::uint64_t draw) {
     at::Tensor scores;
     {
         const Autocast reduced(settings_.bf16);
         at::Tensor fake;
         {
             const at::NoGradGuard no_gradients;
-            fake = this->fake().to(at::kFloat);
+            fake = this->fake(in).to(at::kFloat);
         }
-        const auto seen = augmented(at::cat({real_, fake}), draw);
-        scores = networks_.discriminator->forward(seen, at::cat({labels_, labels_})).to(at::kFloat);
+        const auto seen = augmented(at::cat({in.real, fake}), draw);
+        scores = networks_.discriminator->forward(seen, at::cat({in.labels, in.labels})).to(at::kFloat);
     }
     const auto of = scores.chunk(2);
     const auto loss = discriminator_loss(settings_.loss, of[0], of[1]);
@@ -97,33 +99,33 @@ void Gan::discriminator_gradients(std::uint64_t draw) {
 }
 
 void Gan::step_discriminator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw) {
-    take(real, labels, draw);
+    const auto in = inputs(real, labels, draw);
     discriminator_parameters_.zero_gradients();
-    discriminator_work_.run([this, draw] { discriminator_gradients(draw); });
+    discriminator_graph_.run([&] { discriminator_gradients(in, draw); });
     processes_.average(discriminator_parameters_.all_reduce_buffer());
     discriminator_adam_.step(rate_share_);
     sums_.narrow(0, 0, 3).add_(discriminator_parameters_.appended_values());
 }
 
-void Gan::generator_gradients(std::uint64_t draw) {
+void Gan::generator_gradients(const Inputs& in, std::uint64_t draw) {
     discriminator_parameters_.want_gradients(false);
     at::Tensor scores, made;
     {
         const Autocast reduced(settings_.bf16);
-        made = fake();
-        scores = networks_.discriminator->forward(augmented(made, draw), labels_).to(at::kFloat);
+        made = fake(in);
+        scores = networks_.discriminator->forward(augmented(made, draw), in.labels).to(at::kFloat);
     }
     auto loss = -scores.mean();
-    if (settings_.spread > 0) loss = loss + settings_.spread * spread_loss(real_, made, labels_);
+    if (settings_.spread > 0) loss = loss + settings_.spread * spread_loss(in.real, made, in.labels);
     loss.backward();
     discriminator_parameters_.want_gradients(true);
     generator_parameters_.appended_values().copy_(loss.detach().view({1}));
 }
 
 void Gan::step_generator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw) {
-    take(real, labels, draw);
+    const auto in = inputs(real, labels, draw);
     generator_parameters_.zero_gradients();
-    generator_work_.run([this, draw] { generator_gradients(draw); });
+    generator_graph_.run([&] { generator_gradients(in, draw); });
     processes_.average(generator_parameters_.all_reduce_buffer());
     generator_adam_.step(rate_share_);
     sums_.narrow(0, 3, 1).add_(generator_parameters_.appended_values());

@@ -11,7 +11,7 @@
 #include "model/generators/adversarial/prior.hpp"
 #include "model/nn/adam.hpp"
 #include "model/nn/array.hpp"
-#include "model/nn/recorded_work.hpp"
+#include "model/nn/cuda_graph.hpp"
 #include "model/train/augmentation.hpp"
 #include "model/train/processes.hpp"
 
@@ -24,7 +24,8 @@ class Gan {
     Gan(const GanSettings& settings, GanNetworks networks, const at::Device& device,
         const Processes& processes, Augmentation augmentation = {});
 
-    /// One step of the discriminator: real (batch, P*D, T, K) against as many fake motions of the same labels (batch) int64. What is drawn is a function of the seed and `draw`.
+    /// One step of the discriminator: real (batch, P*D, T, K) against as many fake motions of the same labels (batch) int64; on a GPU a batch
+    /// is as large in every step. What is drawn is a function of the seed and `draw`.
     void step_discriminator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw);
     /// One step of the generator, for as many motions of these labels; `real` are motions of them.
     void step_generator(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw);
@@ -52,10 +53,15 @@ class Gan {
 
   private:
     void count(std::uint64_t steps);
-    void take(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw);
-    void discriminator_gradients(std::uint64_t draw);
-    void generator_gradients(std::uint64_t draw);
-    at::Tensor fake();
+    /// What forward and backward passes of a step read.
+    struct Inputs {
+        at::Tensor real, labels, latent;
+    };
+
+    Inputs inputs(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw);
+    void discriminator_gradients(const Inputs& in, std::uint64_t draw);
+    void generator_gradients(const Inputs& in, std::uint64_t draw);
+    at::Tensor fake(const Inputs& in);
     at::Tensor latent(const at::Tensor& labels, std::uint64_t draw);
     std::vector<at::Tensor> optimiser_state();
     at::Tensor augmented(const at::Tensor& motion, std::uint64_t draw) const;
@@ -69,8 +75,8 @@ class Gan {
     FlatParameters generator_parameters_, discriminator_parameters_;
     std::optional<FlatParameters> ema_parameters_;  ///< where an EMA is kept
     Adam generator_adam_, discriminator_adam_;
-    RecordedWork discriminator_work_, generator_work_;  ///< forward and backward passes
-    at::Tensor real_, labels_, latent_;                 ///< what they are about
+    CudaGraph discriminator_graph_, generator_graph_;  ///< of forward and backward passes
+    Inputs static_inputs_;                             ///< on GPUs, where graphs read them
     double rate_share_ = 1;
     at::Tensor sums_;
 };

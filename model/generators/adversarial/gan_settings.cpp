@@ -33,7 +33,8 @@ const KeyTable<GanSettings>& table() {
                  {.name = "bf16", .meaning = "on CUDA: matrix products and convolutions in bfloat16"})
             .add(&Settings::cuda_graphs,
                  {.name = "cuda_graphs",
-                  .meaning = "on CUDA: a step's kernels are recorded and launched together"});
+                  .meaning = "on CUDA: forward and backward passes are captured as graphs",
+                  .free = true});
         add_augmentation_keys(keys);
         return keys;
     }();

@@ -11,6 +11,9 @@ namespace actformer::model {
 
 constexpr double leak = 0.2;  ///< by which LeakyReLU multiplies negative numbers
 
+/// What lies under the taps of a convolution over frames: x (A, B, padded frames, in) -> (A, B, frames, taps * in).
+at::Tensor under_taps(const at::Tensor& x, std::int64_t taps, std::int64_t stride);
+
 /// The fixed sums of one convolution over nodes, for libtorch's operators and for kernels of our own.
 struct GraphSums {
     at::Tensor matrix;  ///< (hops, out nodes, in nodes)
