@@ -106,7 +106,9 @@ int closed_output() {
     return 1;
 }
 
+/// After what was printed before, also where both go into one file.
 int failed(const std::string& why) {
+    std::fflush(stdout);
     fmt::print(stderr, "actformer: {}\n", printable(why));
     return 1;
 }
