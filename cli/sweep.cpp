@@ -136,7 +136,8 @@ void refuse_other_folders(const fs::path& out) {
 void refuse_what_cannot_be_done(const reports::Plan& plan, const fs::path& file) {
     const auto count = std::ranges::count_if(plan.jobs, [](const auto& job) { return !job.problem.empty(); });
     if (count > 0)
-        throw Error("{}: {} of {} cannot be done; the lines above say why", file.string(), count, counted(plan.jobs.size(), "job"));
+        throw Error("{}: {} of {} cannot be done; the lines above say why", file.string(), count,
+                    counted(plan.jobs.size(), "job"));
 }
 
 void run(SweepOptions options) {
