@@ -52,7 +52,8 @@ TEST_F(Shipped, WhatThereIsIsListed) {
 
 TEST_F(Shipped, ASweepFindsTheConfigurationsThatItNames) {
     const auto plan = here("sweep table3 -o out --dry-run");
-    EXPECT_EQ(plan.exit, 0) << plan.output;
+    EXPECT_EQ(plan.exit, 1) << "its datasets are not here: " << plan.output;
+    EXPECT_NE(plan.output.find("jobs cannot be done"), std::string::npos) << plan.output;
     EXPECT_EQ(plan.output.find("none of that name"), std::string::npos) << plan.output;
     write_file(dir / "mine.yaml",
                "datasets: {d: {format: ntu, clips: 4, use: ntu-1p}}\n"
