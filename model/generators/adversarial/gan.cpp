@@ -22,8 +22,8 @@ bool augments(const GanSettings& settings) {
 }
 
 /// Into the memory of the step before, where graphs read it.
-void replace(at::Tensor& held, const at::Tensor& values) {
-    if (!held.defined()) held = at::empty_like(values);
+void replace(at::Tensor& held, const at::Tensor& values, const at::Device& device) {
+    if (!held.defined()) held = at::empty_like(values, at::TensorOptions(device));
     TORCH_CHECK(held.sizes() == values.sizes(), "steps of one training have batches of one size");
     held.copy_(values, /*non_blocking=*/true);
 }
@@ -71,11 +71,9 @@ at::Tensor Gan::augmented(const at::Tensor& motion, std::uint64_t draw) const {
 Gan::Inputs Gan::inputs(const at::Tensor& real, const at::Tensor& labels, std::uint64_t draw) {
     const auto z = latent(labels, draw);
     if (device_.is_cpu()) return {real, labels, z};
-    replace(static_inputs_.real, real);
-    replace(static_inputs_.labels, labels);
-    if (!static_inputs_.latent.defined())
-        static_inputs_.latent = at::empty_like(z, at::TensorOptions(device_));
-    replace(static_inputs_.latent, z);
+    replace(static_inputs_.real, real, device_);
+    replace(static_inputs_.labels, labels, device_);
+    replace(static_inputs_.latent, z, device_);
     return static_inputs_;
 }
 
