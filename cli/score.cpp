@@ -16,6 +16,7 @@
 #include "base/files/scratch.hpp"
 #include "base/files/temporary.hpp"
 #include "base/process/interruption.hpp"
+#include "base/random/shuffle.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
@@ -114,8 +115,7 @@ void ask_as_actor(const ScoreOptions& options, const eval::WindowsOptions& real,
     const ingest::Dataset dataset(real.dataset);
     auto clips = dataset.split(real.split);
     std::mt19937_64 random(options.seed);
-    for (std::size_t i = clips.size(); i > 1; --i)  // Fisher and Yates, the same on every platform
-        std::swap(clips[i - 1], clips[((random() >> 32) * i) >> 32]);
+    shuffle(clips, random);
     const auto kept = std::min<std::size_t>(clips.size(), options.samples ? options.samples : most);
     std::map<std::uint32_t, std::uint32_t> counts;
     for (std::size_t i = 0; i < kept; ++i) ++counts[dataset.clips()[clips[i]].label];

@@ -6,25 +6,13 @@
 #include "base/threads/parallel.hpp"
 
 namespace actformer::eval {
-namespace {
-
-std::vector<double> rows(const Samples& samples, const std::vector<std::size_t>& which) {
-    std::vector<double> out;
-    out.reserve(which.size() * samples.dimensions);
-    for (const auto i : which) {
-        const auto from = features_of(samples, i);
-        out.insert(out.end(), from.begin(), from.end());
-    }
-    return out;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 std::vector<std::optional<Moments>> moments_by_class(const Samples& samples, unsigned threads) {
     const auto members = members_by_class(samples);
     std::vector<std::optional<Moments>> out(members.size());
     parallel_for(members.size(), thread_count(threads), [&](std::size_t c, unsigned) {
-        if (members[c].size() >= 2) out[c] = fit(rows(samples, members[c]), samples.dimensions);
+        if (members[c].size() >= 2) out[c] = fit(subset(samples, members[c]).features, samples.dimensions);
     });
     return out;
 }

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <random>
 
-#include "base/error.hpp"
+#include "base/random/shuffle.hpp"
 #include "eval/metrics/fid.hpp"
 
 namespace actformer::eval {
@@ -16,40 +17,74 @@ using Orders = std::vector<std::vector<std::size_t>>;
 Orders shuffled(const Samples& samples, std::uint64_t seed) {
     auto orders = members_by_class(samples);
     std::mt19937_64 random(seed);
-    for (auto& order : orders)
-        for (std::size_t i = order.size(); i > 1; --i)  // Fisher and Yates, the same on every platform
-            std::swap(order[i - 1], order[((random() >> 32) * i) >> 32]);
+    for (auto& order : orders) shuffle(order, random);
     return orders;
 }
 
-Samples beginning(const Samples& from, const Orders& orders, double inverse_share) {
-    Samples out;
-    out.dimensions = from.dimensions;
-    out.classes = from.classes;
-    for (const auto& order : orders) {
-        const auto count = static_cast<std::size_t>(static_cast<double>(order.size()) / inverse_share);
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto features = features_of(from, order[i]);
-            out.features.insert(out.features.end(), features.begin(), features.end());
-            out.labels.push_back(from.labels[order[i]]);
-        }
-    }
-    return out;
+/// What the subset that takes 1 / inverse_share of every class has of it; whole samples, so of few the share is smaller.
+std::size_t taken(std::size_t samples, double inverse_share) {
+    return static_cast<std::size_t>(static_cast<double>(samples) / inverse_share);
 }
 
-/// Intercepts of the classes that every subset has a distance of.
-std::optional<double> mean_intercept(std::span<const double> x, const std::vector<Distances>& subsets) {
-    double sum = 0;
-    std::size_t measured = 0;
-    for (std::size_t c = 0; c < subsets.back().by_class.size(); ++c) {
-        if (!subsets.back().by_class[c]) continue;
-        std::vector<double> y;
-        for (const auto& subset : subsets) y.push_back(*subset.by_class[c]);
-        sum += intercept(x, y);
-        ++measured;
+Samples beginning(const Samples& from, const Orders& orders, double inverse_share) {
+    std::vector<std::size_t> which;
+    for (const auto& order : orders)
+        which.insert(which.end(), order.begin(),
+                     order.begin() + static_cast<std::ptrdiff_t>(taken(order.size(), inverse_share)));
+    return subset(from, which);
+}
+
+/// The distances of a subset and how many samples it has of each class.
+struct Subset {
+    std::vector<std::size_t> real, generated;
+    Distances between;
+};
+
+Subset measured(const Samples& real, const Samples& generated, unsigned threads) {
+    const auto of_real = statistics_of(real, threads), of_generated = statistics_of(generated, threads);
+    return {of_real.counts, of_generated.counts, distances(of_real, of_generated, threads)};
+}
+
+/// One divided by the share that was taken, the mean of both sides.
+double inverse_share(std::size_t all_real, std::size_t real, std::size_t all_generated,
+                     std::size_t generated) {
+    return (static_cast<double>(all_real) / static_cast<double>(real) +
+            static_cast<double>(all_generated) / static_cast<double>(generated)) /
+           2;
+}
+
+std::size_t total(const std::vector<std::size_t>& counts) {
+    return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+}
+
+double whole_intercept(const std::vector<Subset>& subsets) {
+    const auto& all = subsets[0];
+    std::vector<double> x, y;
+    for (const auto& part : subsets) {
+        x.push_back(
+            inverse_share(total(all.real), total(part.real), total(all.generated), total(part.generated)));
+        y.push_back(part.between.whole);
     }
-    if (measured == 0) return {};
-    return sum / static_cast<double>(measured);
+    return intercept(x, y);
+}
+
+/// Of the classes that every subset has a distance of.
+std::optional<double> mean_intercept(const std::vector<Subset>& subsets) {
+    const auto& all = subsets[0];
+    double sum = 0;
+    std::size_t classes = 0;
+    for (std::size_t c = 0; c < all.real.size(); ++c) {
+        if (!subsets.back().between.by_class[c]) continue;
+        std::vector<double> x, y;
+        for (const auto& part : subsets) {
+            x.push_back(inverse_share(all.real[c], part.real[c], all.generated[c], part.generated[c]));
+            y.push_back(*part.between.by_class[c]);
+        }
+        sum += intercept(x, y);
+        ++classes;
+    }
+    if (classes == 0) return {};
+    return sum / static_cast<double>(classes);
 }
 
 }  // namespace
@@ -75,15 +110,11 @@ std::optional<ExtrapolatedFid> fid_infinity(const Samples& real, const Samples& 
     if (beginning(real, of_real, smallest).size() < 2 ||
         beginning(generated, of_generated, smallest).size() < 2)
         return {};
-    std::vector<Distances> subsets;
-    std::vector<double> whole;
-    for (const auto inverse : inverse_shares) {
-        subsets.push_back(distances(statistics_of(beginning(real, of_real, inverse), threads),
-                                    statistics_of(beginning(generated, of_generated, inverse), threads),
-                                    threads));
-        whole.push_back(subsets.back().whole);
-    }
-    return ExtrapolatedFid{intercept(inverse_shares, whole), mean_intercept(inverse_shares, subsets)};
+    std::vector<Subset> subsets;
+    for (const auto inverse : inverse_shares)
+        subsets.push_back(measured(beginning(real, of_real, inverse),
+                                   beginning(generated, of_generated, inverse), threads));
+    return ExtrapolatedFid{whole_intercept(subsets), mean_intercept(subsets)};
 }
 
 }  // namespace actformer::eval

@@ -1,6 +1,6 @@
 // FID without its bias of finite sets (Chong and Forsyth, CVPR 2020): to first order a FID of n samples is above that of
 // infinitely many by a constant over n. FIDs of random subsets of both sides, a line through them over one divided by the share
-// taken, and where the line meets 0.
+// that each has in fact, and where the line meets 0.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace actformer::eval {
 
-/// One divided by the shares of the samples that are taken, on both sides and of every class alike.
+/// One divided by the shares of every class that are taken on both sides, rounded down to whole samples.
 constexpr double inverse_shares[] = {1, 1.5, 2, 2.5, 3, 3.5, 4};
 
 struct ExtrapolatedFid {

@@ -60,18 +60,13 @@ void check_dimensions(const Samples& real, const Samples& generated) {
                     generated.dimensions);
 }
 
-std::vector<std::size_t> all_of(const Samples& samples) {
-    std::vector<std::size_t> all(samples.size());
-    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    return all;
-}
-
 }  // namespace
 
 std::optional<double> kid(const Samples& real, const Samples& generated, unsigned threads) {
     check_dimensions(real, generated);
     if (real.size() < 2 || generated.size() < 2) return {};
-    return discrepancy(rows_of(real, all_of(real)), rows_of(generated, all_of(generated)), threads);
+    return discrepancy(rows_of(real, all_indices(real.size())),
+                       rows_of(generated, all_indices(generated.size())), threads);
 }
 
 std::optional<double> kid_mean(const Samples& real, const Samples& generated, unsigned threads) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.hpp"
 
@@ -30,6 +31,28 @@ std::span<const double> features_of(const Samples& samples, std::size_t i) {
 std::vector<std::vector<std::size_t>> members_by_class(const Samples& samples) {
     std::vector<std::vector<std::size_t>> out(samples.classes);
     for (std::size_t i = 0; i < samples.size(); ++i) out[samples.labels[i]].push_back(i);
+    return out;
+}
+
+std::vector<std::size_t> all_indices(std::size_t n) {
+    std::vector<std::size_t> all(n);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+}
+
+Samples subset(const Samples& from, const std::vector<std::size_t>& which) {
+    Samples out;
+    out.dimensions = from.dimensions;
+    out.classes = from.classes;
+    const auto append = [](auto& to, const auto& values, std::size_t row, std::size_t columns) {
+        const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * columns);
+        to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(columns));
+    };
+    for (const auto i : which) {
+        append(out.features, from.features, i, from.dimensions);
+        if (!from.logits.empty()) append(out.logits, from.logits, i, from.classes);
+        out.labels.push_back(from.labels[i]);
+    }
     return out;
 }
 

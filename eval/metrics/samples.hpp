@@ -25,6 +25,12 @@ std::span<const double> features_of(const Samples& samples, std::size_t i);
 /// Which samples each class has, (classes).
 std::vector<std::vector<std::size_t>> members_by_class(const Samples& samples);
 
+/// 0 1 .. n-1
+std::vector<std::size_t> all_indices(std::size_t n);
+
+/// Those samples in that order.
+Samples subset(const Samples& from, const std::vector<std::size_t>& which);
+
 /// Throws Error, beginning with `where`, for shapes that do not fit together, no samples, labels that are no class, or
 /// features and logits that are not finite.
 void check(const Samples& samples, const std::string& where);

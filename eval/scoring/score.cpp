@@ -55,6 +55,7 @@ class Sides {
           device_(device),
           progress_(progress),
           dataset_(request.real.dataset),
+          dataset_checksum_(ingest::dataset_checksum(request.real.dataset)),
           tape_(tape_for(dataset_)) {
         if (!request.recogniser.empty())
             whole_.emplace(device, request.recogniser, request.real.batch, Persons::together,
@@ -98,7 +99,7 @@ class Sides {
         }
         auto out = observed(std::move(stored), set.name);
         if (whole_ && single_) add_groups(out, read_features(file_of(set, *single_)));
-        if (fs::exists(measures_of(set))) out.motion = read_measures(measures_of(set));
+        if (fs::exists(measures_of(set.key))) out.motion = read_measures(measures_of(set.key));
         return with_classes(std::move(out));
     }
 
@@ -127,7 +128,7 @@ class Sides {
         side.groups->classes = side.samples.classes;
     }
 
-    /// Whatever would fail after the long work.
+    /// Refuses before the long work what would fail after it.
     void check() {
         const auto real = open_windows(device_, request_.real);
         classes_ = real->info().classes;
@@ -191,8 +192,15 @@ class Sides {
         return request_.work / (key.hex() + ".h5");
     }
 
-    fs::path measures_of(const MotionSet& set) const {
-        return fs::path(file_of(set, whole_ ? *whole_ : *single_)).replace_extension(".measures");
+    /// How motions are measured is the dataset's: its bodies' lengths and frames a second.
+    fs::path measures_of(const std::string& motions) const {
+        Checksum key;
+        key.add(fmt::format("{}|{}|{}", motions, dataset_checksum_, ACTFORMER_VERSION));
+        return request_.work / (key.hex() + ".measures");
+    }
+
+    fs::path real_measures_file() const {
+        return measures_of(fmt::format("real|{}|{}", request_.real.split, request_.real.window));
     }
 
     void add_note(const std::string& note) {
@@ -211,7 +219,7 @@ class Sides {
     /// Of the real windows; they lie in the work folder until scoring has ended.
     std::optional<MotionMeasures> real_measures() {
         if (!tape_) return {};
-        const auto file = request_.work / "real.measures";
+        const auto file = real_measures_file();
         if (is_kept(file)) return read_measures(file);
         MeasuredSource real(open_windows(device_, request_.real), *tape_, device_);
         while (!real.next().rows.empty()) continue;
@@ -226,7 +234,7 @@ class Sides {
             if (extractor && !is_kept(file_of(set, *extractor)))
                 missing.push_back({extractor, file_of(set, *extractor)});
         auto motions = set.open();
-        if (!tape_ || !fits(*tape_, motions->info()) || is_kept(measures_of(set))) {
+        if (!tape_ || !fits(*tape_, motions->info()) || is_kept(measures_of(set.key))) {
             if (!missing.empty()) write_features(*motions, missing, tell(set.name));
             return;
         }
@@ -235,13 +243,14 @@ class Sides {
             while (!measured.next().rows.empty()) continue;
         else
             write_features(measured, missing, tell(set.name));
-        write_measures(measures_of(set), measured.measures());
+        write_measures(measures_of(set.key), measured.measures());
     }
 
     const ScoreMotions& request_;
     kernels::Device& device_;
     const ScoreProgress& progress_;
     ingest::Dataset dataset_;
+    std::string dataset_checksum_;
     std::optional<MeasuringTape> tape_;  ///< none where motions cannot be measured
     std::optional<FeatureExtractor> whole_, single_;
     std::vector<std::string> classes_, views_, notes_;

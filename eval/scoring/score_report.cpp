@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "base/text/first_few.hpp"
 #include "eval/metrics/diversity.hpp"
@@ -175,8 +174,7 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
         report.real_multimodality = multimodality_of(real.samples, options);
     }
     if (real.motion) {
-        std::vector<std::size_t> all(real.motion->size());
-        std::iota(all.begin(), all.end(), std::size_t{0});
+        const auto all = all_indices(real.motion->size());
         report.real_motion = compare(*real.motion, all, *real.motion, all);
     }
     warn_of_counts(report);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <random>
 
 #include "base/error.hpp"
+#include "base/random/shuffle.hpp"
 #include "eval/metrics/diversity.hpp"
 #include "eval/metrics/fid_infinity.hpp"
 #include "eval/metrics/kid.hpp"
@@ -23,22 +23,6 @@ std::vector<std::size_t> identical_classes(const Statistics& statistics) {
         double square = 0;
         for (const double m : moments->mean) square += m * m;
         if (moments->variance <= 1e-24 * square) out.push_back(c);
-    }
-    return out;
-}
-
-Samples subset(const Samples& from, const std::vector<std::size_t>& which) {
-    Samples out;
-    out.dimensions = from.dimensions;
-    out.classes = from.classes;
-    const auto append = [](auto& to, const auto& values, std::size_t row, std::size_t columns) {
-        const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * columns);
-        to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(columns));
-    };
-    for (const auto i : which) {
-        append(out.features, from.features, i, from.dimensions);
-        if (!from.logits.empty()) append(out.logits, from.logits, i, from.classes);
-        out.labels.push_back(from.labels[i]);
     }
     return out;
 }
@@ -67,13 +51,6 @@ std::vector<std::vector<std::vector<std::size_t>>> clips_of(const Observed& real
     return out;
 }
 
-/// 0 1 .. n-1
-std::vector<std::size_t> first(std::size_t n) {
-    std::vector<std::size_t> all(n);
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return all;
-}
-
 }  // namespace
 
 void check_comparable(const Observed& real, const Observed& generated) {
@@ -88,6 +65,13 @@ void check_comparable(const Observed& real, const Observed& generated) {
     };
     compare(real.samples, generated.samples);
     if (real.groups && generated.groups) compare(*real.groups, *generated.groups);
+    for (const auto* side : {&real, &generated})
+        if (side->motion && side->motion->size() != side->samples.size())
+            throw Error(
+                "{}: {} of its motions are measured and {} have features; remove what an interrupted scoring "
+                "left "
+                "(SCORES.json.work) and score again",
+                side->source, side->motion->size(), side->samples.size());
 }
 
 double accuracy_of(const Confusion& confusion, const ScorerOptions& options) {
@@ -142,8 +126,8 @@ Score Scorer::score(const Observed& generated) const {
             out.fid_whole_infinity = found->whole;
         }
     if (real_motion_ && generated.motion) {
-        out.motion = compare(*real_motion_, first(real_motion_->size()), *generated.motion,
-                             first(generated.motion->size()));
+        out.motion = compare(*real_motion_, all_indices(real_motion_->size()), *generated.motion,
+                             all_indices(generated.motion->size()));
         const auto members = members_by_class(samples);
         for (std::size_t c = 0; c < members.size(); ++c)
             out.motion_by_class.push_back(
@@ -163,8 +147,7 @@ std::optional<Floor> score_floor(const Observed& real, const std::vector<std::si
         std::size_t all = 0, taken = 0;
         for (const auto& clip : clips) all += clip.size();
         const auto most = std::min(wanted[c], all / 2);
-        for (std::size_t i = clips.size(); i > 1; --i)  // Fisher and Yates, the same on every platform
-            std::swap(clips[i - 1], clips[((random() >> 32) * i) >> 32]);
+        shuffle(clips, random);
         for (const auto& clip : clips) {
             const bool fits = taken + clip.size() <= most;
             auto& to = fits ? drawn : rest;

@@ -188,4 +188,8 @@ fs::path one_dataset_at(const fs::path& path) {
                 folders[0].string());
 }
 
+std::string dataset_checksum(const fs::path& folder) {
+    return checksum_file(folder / "dataset.json");
+}
+
 }  // namespace actformer::ingest

@@ -116,4 +116,8 @@ std::vector<std::filesystem::path> datasets_at(const std::filesystem::path& path
 /// The one of them. Throws Error where there are none or several.
 std::filesystem::path one_dataset_at(const std::filesystem::path& path);
 
+/// The checksum of dataset.json, which has those of its shards: another one where any motion, label or split differs. Throws Error where
+/// there is no dataset in `folder`.
+std::string dataset_checksum(const std::filesystem::path& folder);
+
 }  // namespace actformer::ingest

@@ -399,6 +399,28 @@ TEST_F(Score, KeepsTheRealSide) {
     EXPECT_EQ(nlohmann::json::parse(without.output), first) << "where there can be no cache";
 }
 
+TEST_F(Score, TakesNoMeasuresOfOtherWindows) {
+    ingest::MotionsWriter whole(dir / "m.h5"), writer(dir / "bad.h5");
+    whole.describe(ingest::subjects_of(ingest::Dataset(datasets() / "ntu-1p")));
+    for (unsigned i = 0; i < 12; ++i)
+        whole.add(fmt::format("A{:03}_{}", i % 4 + 1, i / 4), made_motion(60, 1, i));
+    whole.finish();
+    auto motion = made_motion(60, 1, 7);
+    motion.values[100] = std::nanf("");
+    for (unsigned i = 0; i < 2; ++i) writer.add(fmt::format("A001_{}", i), motion);
+    writer.finish();
+    const auto of_split = [&](const std::string& split) {
+        return one_person() + "--split " + split + " -o " + at("s.json") + " --generated " + at("m.h5") + " ";
+    };
+    const auto stopped = score(of_split("xsub/train") + at("bad.h5"));
+    ASSERT_EQ(stopped.exit, 1) << stopped.output;
+    ASSERT_TRUE(fs::exists(dir / "s.json.work")) << "what is done is kept: " << stopped.output;
+    const auto json = scored(of_split("xsub/test"));
+    EXPECT_FALSE(fs::exists(dir / "s.json.work"));
+    EXPECT_EQ(json, scored(of_split("xsub/test"))) << "as without a scoring of another split before it";
+    EXPECT_TRUE(json.contains("limb_acceleration"));
+}
+
 TEST_F(Score, TakesLabelsFromAFile) {
     ingest::MotionsWriter writer(dir / "m.h5");
     ingest::MotionsWriter named(dir / "named.h5");
