@@ -56,6 +56,10 @@ class Recogniser {
     /// sequence fits.
     Recognised recognise(std::span<const float> motions, std::uint32_t sequences, std::uint32_t frames);
 
+    /// The sequences that follow are those of the set called `name`, from its first one on. What a recogniser adds at random is a
+    /// function of its seed, this name and a sequence's place in the set.
+    virtual void begin_set(const std::string& /*name*/) {}
+
     /// The same with motions that lie on the device.
     virtual Recognised recognise(const cl::Buffer& motions, std::uint32_t sequences,
                                  std::uint32_t frames) = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/random/philox.hpp"
 
@@ -61,15 +62,19 @@ GruRecogniser::GruRecogniser(kernels::Device& device, const GruFile& weights, st
     for (std::size_t l = 0; l < gru_layers; ++l) layers_.push_back(place(device, weights, l));
 }
 
-Buffer<float> GruRecogniser::initial(std::uint32_t count, std::size_t layer) const {
+Buffer<float> GruRecogniser::initial(std::uint32_t begin, std::uint32_t count, std::size_t layer) const {
     std::vector<float> values(std::size_t{count} * network_.hidden, 0.0F);
     if (noise_)
         for (std::uint32_t n = 0; n < count; ++n)
             for (std::uint32_t i = 0; i < network_.hidden; i += 2) {
-                const auto pair = normals(*noise_, seen_ + n, static_cast<std::uint32_t>(layer), i);
+                const auto pair = normals(*noise_, next_ + begin + n, static_cast<std::uint32_t>(layer), i);
                 std::copy(pair.begin(), pair.end(), values.begin() + n * network_.hidden + i);
             }
     return {device(), values};
+}
+
+void GruRecogniser::begin_set(const std::string& name) {
+    next_ = std::stoull(checksum(name).substr(0, 16), nullptr, 16);
 }
 
 void GruRecogniser::run(const cl::Buffer& motions, std::uint32_t begin, std::uint32_t count,
@@ -83,7 +88,7 @@ void GruRecogniser::run(const cl::Buffer& motions, std::uint32_t begin, std::uin
     kernels_.poses(motions, layout, {moving.root, moving.first, moving.count}, begin, count, x);
     auto inputs = network_.inputs;
     for (std::size_t l = 0; l < gru_layers; ++l) {
-        const Buffer<float> states(device(), rows * network_.hidden), start = initial(count, l);
+        const Buffer<float> states(device(), rows * network_.hidden), start = initial(begin, count, l);
         kernels_.layer(x, start, layers_[l], count, frames, inputs, states);
         x = states;
         inputs = network_.hidden;
@@ -103,8 +108,8 @@ Recognised GruRecogniser::recognise(const cl::Buffer& motions, std::uint32_t seq
     for (std::uint32_t begin = 0; begin < sequences; begin += batch_) {
         const auto count = std::min(batch_, sequences - begin);
         run(motions, begin, count, frames, features);
-        seen_ += count;
     }
+    next_ += sequences;
     kernels_.dense(features, {sequences, network_.features, 0, network_.features, 0}, class_weight_,
                    class_bias_, false, logits);
     return {features.download(), logits.download()};

@@ -43,6 +43,7 @@ Classified classified(const Sum& sum) {
 std::vector<Classified> classify(MotionSource& motions, FeatureExtractor& extractor, const Tell& tell) {
     const auto& info = motions.info();
     extractor.check_fits(info);
+    extractor.begin_set(info);
     const auto classes = extractor.classes();
     std::vector<Sum> sums;
     std::vector<std::size_t> clip_at;  // of each row

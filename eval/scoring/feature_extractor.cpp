@@ -77,6 +77,10 @@ void FeatureExtractor::check_classes(const MotionsInfo& motions) const {
                         motions.names[i], motions.labels[i] + 1, r.source, r.classes);
 }
 
+void FeatureExtractor::begin_set(const MotionsInfo& motions) {
+    recogniser_->begin_set(motions.fingerprint);
+}
+
 Recognised FeatureExtractor::extract(const MotionBatch& batch, const MotionsInfo& motions) {
     const bool common = joints_of(motions) == ingest::Joints::common15;
     const auto channels = common ? 3 * motions.persons : motions.channels;

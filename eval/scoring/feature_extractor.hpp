@@ -42,6 +42,9 @@ class FeatureExtractor {
     /// Throws Error unless the motions' labels and classes are the recogniser's. Of Persons::apart they do not matter.
     void check_classes(const MotionsInfo& motions) const;
 
+    /// The batches that follow are of `motions`, from their first one on.
+    void begin_set(const MotionsInfo& motions);
+
     /// A batch of motions that fit: features (rows, features()) and logits (rows, classes()). Motions of which the common
     /// joints are seen come in host memory.
     Recognised extract(const MotionBatch& batch, const MotionsInfo& motions);

@@ -13,7 +13,9 @@ class Output {
     Output(const FeaturesTarget& target, const MotionsInfo& motions)
         : extractor_(*target.extractor),
           motions_(motions),
-          file_(target.file, motions.names.size(), extractor_.features(), extractor_.classes()) {}
+          file_(target.file, motions.names.size(), extractor_.features(), extractor_.classes()) {
+        extractor_.begin_set(motions);
+    }
 
     void add(const MotionBatch& batch) {
         const auto got = extractor_.extract(batch, motions_);

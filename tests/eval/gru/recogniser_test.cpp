@@ -189,6 +189,21 @@ TEST_F(GruTest, NoiseIsASeedsAndZeroWithout) {
     const auto first = recogniser->recognise(motions, 2, 5).features,
                again = recogniser->recognise(motions, 2, 5).features;
     EXPECT_NE(first, again) << "drawn at every call";
+    const auto of_set = [&](const char* name) {
+        recogniser->begin_set(name);
+        return recogniser->recognise(motions, 2, 5).features;
+    };
+    const auto real = of_set("real"), generated = of_set("generated");
+    EXPECT_NE(real, generated);
+    EXPECT_EQ(of_set("generated"), generated)
+        << "whatever was seen before, as where features of real motions are kept";
+    EXPECT_EQ(of_set("real"), real);
+    // In parts, as where memory is small.
+    recogniser->begin_set("real");
+    auto parts = recogniser->recognise(std::span(motions).first(motions.size() / 2), 1, 5).features;
+    const auto rest = recogniser->recognise(std::span(motions).subspan(motions.size() / 2), 1, 5).features;
+    parts.insert(parts.end(), rest.begin(), rest.end());
+    EXPECT_EQ(parts, real);
 }
 
 TEST_F(GruTest, RefusesBadFiles) {
