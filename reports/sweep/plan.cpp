@@ -62,7 +62,7 @@ class Planner {
         std::optional<std::size_t> job;
         std::string path;
         double clips = 0;        ///< of a dataset; 0 where that is not known yet
-        std::string contents{};  ///< checksum of weights that are there
+        std::string contents{};  ///< checksum of weights or of a dataset that are there
     };
 
     /// Its path where it is there; empty where it is not.
@@ -93,7 +93,7 @@ class Planner {
         if (made.job) return made;
         try {
             made.contents = checksum_file(eval::weights_of(made.path));
-        } catch (const Error&) {  // whoever uses them will say why
+        } catch (const Error&) {  // a job that uses them will say why
         }
         return made;
     }
@@ -161,7 +161,7 @@ class Planner {
         job.title = "dataset " + name;
         if (!d.path.empty()) {
             auto made = there(d.path, "dataset", std::move(job));
-            if (!made.job) made.clips = clips_in(made.path);
+            if (!made.job) look_into(made);
             return made;
         }
         IngestWork work;
@@ -180,12 +180,15 @@ class Planner {
         return {at, made_by(at, work.out) + (d.use.empty() ? "" : "/" + d.use), static_cast<double>(d.clips)};
     }
 
-    /// 0 where it cannot be read: whoever uses it will say why.
-    static double clips_in(const std::string& path) {
+    /// A dataset that is there: how many clips it has, and the checksum of all that it is. A job that uses one that cannot be read
+    /// will say why.
+    static void look_into(Made& dataset) {
         try {
-            return static_cast<double>(ingest::Dataset(path).clips().size());
+            const auto folder = ingest::one_dataset_at(dataset.path);
+            dataset.contents = ingest::dataset_checksum(folder);
+            dataset.clips = static_cast<double>(ingest::Dataset(folder).clips().size());
         } catch (const Error&) {
-            return 0;
+            dataset.clips = 0;
         }
     }
 

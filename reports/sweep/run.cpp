@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <ctime>
+#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -98,35 +99,49 @@ class Schedule {
             if (status_[i].state == JobState::failed) fail_those_that_need(i);
     }
 
-    /// A worker: does jobs until none is left for it, or a signal comes.
+    /// A worker: does jobs until none is left for it, a signal comes, or what they came to cannot be written.
     void work() {
-        for (;;) {
-            std::unique_lock lock(mutex_);
-            std::optional<std::size_t> job;
-            changed_.wait(lock, [&] { return (job = next()) || none_left(); });
-            if (!job) return;
-            taken_[*job] = true;
-            ++running_;
-            if (events_.begins) events_.begins(plan_.jobs[*job], progress());
-            lock.unlock();
-            auto status = done_by_us(*job);
-            lock.lock();
-            --running_;
-            status_[*job] = std::move(status);
-            const bool stopped = status_[*job].state == JobState::failed && safe_points_.asked();
-            if (stopped) status_[*job] = {};
-            if (status_[*job].state == JobState::failed) fail_those_that_need(*job);
-            if (events_.ends && !stopped) events_.ends(plan_.jobs[*job], status_[*job]);
-            write_results(sweep_, plan_, options_.out);
+        std::unique_lock lock(mutex_);
+        try {
+            for (;;) {
+                std::optional<std::size_t> job;
+                changed_.wait(lock, [&] { return (job = next()) || none_left(); });
+                if (!job) return;
+                do_one(*job, lock);
+                changed_.notify_all();
+            }
+        } catch (...) {
+            if (!failure_) failure_ = std::current_exception();
             changed_.notify_all();
         }
     }
 
-    const std::vector<JobStatus>& status() const { return status_; }
+    /// How far all jobs are once the workers have ended. Throws what ended one of them.
+    const std::vector<JobStatus>& status() const {
+        if (failure_) std::rethrow_exception(failure_);
+        return status_;
+    }
 
   private:
+    /// With the lock held but while the job runs.
+    void do_one(std::size_t job, std::unique_lock<std::mutex>& lock) {
+        taken_[job] = true;
+        if (events_.begins) events_.begins(plan_.jobs[job], progress());
+        ++running_;
+        lock.unlock();
+        auto status = done_by_us(job);
+        lock.lock();
+        --running_;
+        status_[job] = std::move(status);
+        const bool stopped = status_[job].state == JobState::failed && safe_points_.asked();
+        if (stopped) status_[job] = {};
+        if (status_[job].state == JobState::failed) fail_those_that_need(job);
+        if (events_.ends && !stopped) events_.ends(plan_.jobs[job], status_[job]);
+        write_results(sweep_, plan_, options_.out);
+    }
+
     std::optional<std::size_t> next() const {
-        if (safe_points_.asked()) return {};
+        if (safe_points_.asked() || failure_) return {};
         for (std::size_t i = 0; i < taken_.size(); ++i) {
             if (taken_[i]) continue;
             bool ready = true;
@@ -179,6 +194,7 @@ class Schedule {
     std::vector<bool> taken_;
     std::vector<JobStatus> status_;
     std::size_t running_ = 0;
+    std::exception_ptr failure_;  ///< the first that ended a worker
     std::mutex mutex_;
     std::condition_variable changed_;
 };
@@ -206,9 +222,10 @@ std::vector<JobStatus> run_plan(const Sweep& sweep, const Plan& plan, const Swee
         for (std::size_t i = 1; i < workers; ++i) others.push_back(new_thread([&] { schedule.work(); }));
         schedule.work();
     }
+    const auto& status = schedule.status();
     write_results(sweep, plan, options.out);
-    if (safe_points.asked()) safe_points.stop(how_to_go_on(schedule.status()));
-    return schedule.status();
+    if (safe_points.asked()) safe_points.stop(how_to_go_on(status));
+    return status;
 }
 
 JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, const SweepOptions& options) {

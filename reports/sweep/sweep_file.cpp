@@ -197,6 +197,10 @@ SweepRow row(const Place& place, const Node& where, const std::string& name, Ent
         place.fail(where,
                    fmt::format("row '{}' must say config, or weights of a generator, or motions", name));
     if (out.seeds.empty()) place.fail(where, fmt::format("row '{}' has no seeds", name));
+    for (auto seed = out.seeds.begin(); seed != out.seeds.end(); ++seed)
+        if (std::find(out.seeds.begin(), seed, *seed) != seed)
+            place.fail(where, fmt::format("row '{}' has seed {} twice: the same training is no second one",
+                                          name, *seed));
     return out;
 }
 

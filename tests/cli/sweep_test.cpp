@@ -278,6 +278,40 @@ TEST_F(Sweep, ScoresWeightsThatAreThereAndAgainWhereTheyChanged) {
     EXPECT_EQ(calls_of("--generator " + at("ready.h5") + " --repeats 3"), 2);
 }
 
+TEST_F(Sweep, ScoresAgainWhereADatasetThatIsThereChanged) {
+    fs::copy(toy(), dir / "toy", fs::copy_options::recursive);
+    write_file(dir / "ready.h5", "weights");
+    write_file(dir / "sweep.yaml",
+               "datasets:\n  toy: {path: toy}\nrecognisers:\n  toy: {weights: ready.h5}\n"
+               "rows:\n  ready: {data: toy, recogniser: toy, weights: ready.h5, split: s/train}\n");
+    const auto scorings = [&] {
+        EXPECT_EQ(sweep().exit, 0);
+        return calls_of("score ");
+    };
+    EXPECT_EQ(scorings(), 1);
+    EXPECT_EQ(scorings(), 1);
+    auto description = nlohmann::ordered_json::parse(read_file(dir / "toy/dataset.json"));
+    description.erase("checksum");  // as who edits it does
+    description["fps"] = 25;
+    write_file(dir / "toy/dataset.json", description.dump());
+    EXPECT_EQ(scorings(), 2);
+    EXPECT_EQ(scorings(), 2);
+}
+
+TEST_F(Sweep, EndsInOneLineWhereItsResultsCannotBeWritten) {
+    sweep_file(two_rows);
+    write_file(dir / "actformer", replaced(stand_in, "kind=$1\n",
+                                           "kind=$1\n[ $kind != train ] || { rm -rf $here/out/results.json; "
+                                           "mkdir -p $here/out/results.json/taken; }\n"));
+    for (const char* jobs : {"1", "2", "4"}) {
+        const auto result = run_command("timeout 60 " + command("--jobs " + std::string(jobs)));
+        EXPECT_EQ(result.exit, 1) << result.output;
+        EXPECT_NE(result.output.find("results.json"), std::string::npos) << result.output;
+        EXPECT_NE(result.output.rfind("actformer: "), std::string::npos) << result.output;
+        fs::remove_all(dir / "out");
+    }
+}
+
 TEST_F(Sweep, MissingDataFailOnlyTheirRows) {
     sweep_file("  full: {fills: [table3/full/NTU-1P]}\n  theirs: {motions: none.h5}\n");
     const auto result = sweep();
@@ -308,6 +342,8 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
     expect_refused({"line 9", "'repeat'", "repeats"});
     sweep_file("  a: {repeats: many}\n");
     expect_refused({"line 9", "'repeats'", "whole number"});
+    sweep_file("  a: {seeds: [0, 1, 0]}\n");
+    expect_refused({"line 9", "seed 0 twice"});
     sweep_file("  a: {repeats: 0}\n");
     expect_refused({"'repeats'", "at least 1"});
     sweep_file("  a: {data: three}\n");
