@@ -13,6 +13,7 @@
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
 #include "cli/bench.hpp"
+#include "cli/common_options.hpp"
 #include "cli/say.hpp"
 #include "eval/stgcn/operations.hpp"
 #include "eval/stgcn/recogniser.hpp"
@@ -33,8 +34,8 @@ struct BenchFeaturesOptions {
     bool tune = false, json = false;
 };
 
-constexpr std::array<const char*, 8> step_names{"enter",    "gather", "graph",    "split",
-                                                "temporal", "join",   "residual", "pool"};
+constexpr std::array<const char*, 8> step_names{"enter",    "gather",  "graph",    "transform",
+                                                "temporal", "inverse", "residual", "pool"};
 
 /// Milliseconds a batch, by layer and step. Waiting for every step costs a little on its own.
 using Breakdown = std::array<std::array<double, step_names.size()>, eval::stgcn_layers>;
@@ -128,22 +129,22 @@ struct FeatureTimes {
 
 void print_breakdown(const Breakdown& steps) {
     say("milliseconds a batch by layer and step, each step waited for:\n  layer");
-    for (const auto* name : step_names) say("{:>9}", name);
-    say("{:>9}\n", "all");
+    for (const auto* name : step_names) say("{:>10}", name);
+    say("{:>10}\n", "all");
     std::array<double, step_names.size() + 1> sums{};
     for (std::size_t l = 0; l < steps.size(); ++l) {
         double all = 0;
         say("  {:>5}", l);
         for (std::size_t s = 0; s < step_names.size(); ++s) {
-            say("{:>9.2f}", steps[l][s]);
+            say("{:>10.2f}", steps[l][s]);
             all += steps[l][s];
             sums[s] += steps[l][s];
         }
-        say("{:>9.2f}\n", all);
+        say("{:>10.2f}\n", all);
         sums.back() += all;
     }
     say("    all");
-    for (const auto sum : sums) say("{:>9.2f}", sum);
+    for (const auto sum : sums) say("{:>10.2f}", sum);
     say("\n");
 }
 
@@ -253,7 +254,7 @@ void add_bench_features(CLI::App& bench) {
                         "Folder of the reference programs stgcn.py and stgcn_ort.js");
     command->add_option("--node-modules", options->node_modules, "Folder that holds onnxruntime-node");
     command->add_option("--python", options->python, "Python that has torch and h5py")->capture_default_str();
-    command->add_option("--device", options->device, "OpenCL device: a number, gpu, cpu, or part of a name");
+    add_device_option(command, options->device);
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer bench features\n"

@@ -11,9 +11,7 @@ std::uint32_t units_an_item(const Device& device) {
 }
 
 cl::Kernel kernel_of(Device& device, const char* name, std::uint32_t hidden) {
-    static const auto text = std::string(source("vectors")) + std::string(source("gru"));
-    return device.kernel_from(text, "gru.cl", name,
-                              fmt::format("-DVEC={} -DHIDDEN={}", units_an_item(device), hidden));
+    return device.vector_kernel("gru", name, units_an_item(device), fmt::format(" -DHIDDEN={}", hidden));
 }
 
 }  // namespace

@@ -13,9 +13,7 @@ double measure_peak(Device& device, std::uint32_t vec, int repeats) {
     const bool cpu = device.info().type == "CPU";
     const std::size_t group = cpu ? 1 : 128, items = device.info().compute_units * (cpu ? 8 : 32) * group;
     const std::uint32_t steps = cpu ? 50'000 : 4'000;
-    const auto text = std::string(source("vectors")) + std::string(source("peak"));
-    auto kernel =
-        device.kernel_from(text, "peak.cl", "peak", fmt::format("-DVEC={} -DCHAINS={}", vec, chains));
+    auto kernel = device.vector_kernel("peak", "peak", vec, fmt::format(" -DCHAINS={}", chains));
     const Buffer<float> out(device, items + group);
     double best = 0;
     for (int i = 0; i <= repeats; ++i) {  // the first run builds the kernel for this size of group

@@ -28,7 +28,7 @@ std::size_t frame_at(std::uint32_t start, std::uint32_t t, std::uint32_t frames,
 }
 
 std::uint64_t drawn_order(std::uint32_t persons, PhiloxWords counter, PhiloxKey key) {
-    std::uint64_t order = Shot::own_order;
+    std::uint64_t order = DrawnWindow::own_order;
     PhiloxWords words{};
     for (std::uint32_t i = persons - 1, used = 0; i > 0 && i < 16; --i, ++used) {
         if (used % 4 == 0) {
@@ -45,14 +45,14 @@ std::uint64_t drawn_order(std::uint32_t persons, PhiloxWords counter, PhiloxKey 
 using Position = std::array<float, 3>;
 
 /// The root's mean over the frames shown and all persons. Not inline: its product must not be contracted with what it is taken from.
-[[gnu::noinline]] Position mean_root(const ClipTable& table, std::span<const float> clip, const Shot& shot,
-                                     Padding padding, std::uint32_t window) {
+[[gnu::noinline]] Position mean_root(const ClipTable& table, std::span<const float> clip,
+                                     const DrawnWindow& chosen, Padding padding, std::uint32_t window) {
     Position sum{};
     if (!table.centring) return sum;
-    const auto frames = table.frames[shot.clip];
+    const auto frames = table.frames[chosen.clip];
     for (std::uint32_t t = 0; t < window; ++t)
         for (std::size_t p = 0; p < table.persons; ++p) {
-            const auto body = frame_at(shot.first, t, frames, padding) * table.persons + p;
+            const auto body = frame_at(chosen.first, t, frames, padding) * table.persons + p;
             for (std::size_t d = 0; d < 3; ++d)
                 sum[d] += clip[(body * table.nodes + table.centring->root) * table.numbers + d];
         }
@@ -63,8 +63,8 @@ using Position = std::array<float, 3>;
 
 }  // namespace
 
-Shot drawn(const ClipTable& table, const ClassTable& classes, const SamplerOptions& options,
-           std::uint64_t index, std::uint32_t sample, std::uint32_t window) {
+DrawnWindow drawn(const ClipTable& table, const ClassTable& classes, const SamplerOptions& options,
+                  std::uint64_t index, std::uint32_t sample, std::uint32_t window) {
     const auto low = [](std::uint64_t value) { return static_cast<std::uint32_t>(value); };
     const PhiloxKey key{low(options.seed), low(options.seed >> 32)};
     const PhiloxWords counter{0, options.first_sample + sample, low(index), low(index >> 32)};
@@ -75,19 +75,19 @@ Shot drawn(const ClipTable& table, const ClassTable& classes, const SamplerOptio
     const auto clip = classes.by_class[first + high_product(words[2], count)];
     const auto frames = table.frames[clip];
     return {clip, frames > window ? high_product(words[3], frames - window + 1) : 0,
-            options.permute_persons ? drawn_order(table.persons, counter, key) : Shot::own_order};
+            options.permute_persons ? drawn_order(table.persons, counter, key) : DrawnWindow::own_order};
 }
 
-void show(const ClipTable& table, std::span<const float> clip, const Shot& shot, Padding padding,
+void show(const ClipTable& table, std::span<const float> clip, const DrawnWindow& chosen, Padding padding,
           std::uint32_t window, std::span<float> to) {
-    const auto centre = mean_root(table, clip, shot, padding, window);
+    const auto centre = mean_root(table, clip, chosen, padding, window);
     const auto moved = table.centring.value_or(Centring{0, 0, 0});
     const std::size_t body_values = std::size_t{table.nodes} * table.numbers;
     for (std::uint32_t t = 0; t < window; ++t) {
-        const auto frame = frame_at(shot.first, t, table.frames[shot.clip], padding) * table.persons;
+        const auto frame = frame_at(chosen.first, t, table.frames[chosen.clip], padding) * table.persons;
         for (std::size_t p = 0; p < table.persons; ++p) {
             const auto body =
-                clip.subspan((frame + ((shot.order >> (4 * p)) & 15)) * body_values, body_values);
+                clip.subspan((frame + ((chosen.order >> (4 * p)) & 15)) * body_values, body_values);
             for (std::size_t c = 0; c < table.numbers; ++c) {
                 const auto row =
                     to.subspan(((p * table.numbers + c) * window + t) * table.nodes, table.nodes);

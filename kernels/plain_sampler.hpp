@@ -17,7 +17,7 @@ struct ClassTable {
 };
 
 /// What a window shows: a clip from a frame on, its persons in an order of four bits each.
-struct Shot {
+struct DrawnWindow {
     static constexpr std::uint64_t own_order = 0xFEDCBA9876543210;
 
     std::uint32_t clip = 0, first = 0;
@@ -25,11 +25,11 @@ struct Shot {
 };
 
 /// Sample `sample` of batch `index`, drawn as kernel `draw` does.
-Shot drawn(const ClipTable& table, const ClassTable& classes, const SamplerOptions& options,
-           std::uint64_t index, std::uint32_t sample, std::uint32_t window);
+DrawnWindow drawn(const ClipTable& table, const ClassTable& classes, const SamplerOptions& options,
+                  std::uint64_t index, std::uint32_t sample, std::uint32_t window);
 
-/// The window (P*C, T, K) of `clip`, the values (frames, P, K, C) of the clip that the shot names; centred where the table says so.
-void show(const ClipTable& table, std::span<const float> clip, const Shot& shot, Padding padding,
+/// The window (P*C, T, K) of `clip`, the values (frames, P, K, C) of the clip that the chosen names; centred where the table says so.
+void show(const ClipTable& table, std::span<const float> clip, const DrawnWindow& chosen, Padding padding,
           std::uint32_t window, std::span<float> to);
 
 }  // namespace actformer::kernels

@@ -122,11 +122,11 @@ void Batch::begin(std::uint32_t filled, const ClipStore& clips) {
     filled_ = filled;
 }
 
-void Batch::show(std::uint32_t sample, const Shot& shot, Padding padding, const ClipStore& clips) {
-    kernels::show(clips.table(), clips.in_memory(shot.clip), shot, padding, window_,
+void Batch::show(std::uint32_t sample, const DrawnWindow& chosen, Padding padding, const ClipStore& clips) {
+    kernels::show(clips.table(), clips.in_memory(chosen.clip), chosen, padding, window_,
                   values_.map().subspan(sample * sample_values_, sample_values_));
-    labels_.map()[sample] = clips.table().labels[shot.clip];
-    std::ranges::copy(std::array{shot.clip, shot.first}, &picks_.map()[std::size_t{sample} * 2]);
+    labels_.map()[sample] = clips.table().labels[chosen.clip];
+    std::ranges::copy(std::array{chosen.clip, chosen.first}, &picks_.map()[std::size_t{sample} * 2]);
 }
 
 Batch::View Batch::map() {

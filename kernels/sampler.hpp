@@ -72,7 +72,7 @@ class Batch {
     friend class Sampler;
     friend class WindowCutter;
     void begin(std::uint32_t filled, const ClipStore& clips);
-    void show(std::uint32_t sample, const Shot& shot, Padding padding,
+    void show(std::uint32_t sample, const DrawnWindow& chosen, Padding padding,
               const ClipStore& clips);  ///< in memory
 
     std::uint32_t samples_ = 0, window_ = 0, filled_ = 0;

@@ -71,11 +71,10 @@ SkinningTiles skinning_tiles(const Device& device) {
 }
 
 cl::Kernel Skinning::kernel(const char* name) {
-    const auto text = std::string(source("vectors")) + std::string(source("skinning"));
-    return device_->kernel_from(
-        text, "skinning.cl", name,
-        fmt::format("-DJOINTS={} -DPANEL={} -DVEC={} -DTILE_VERTICES={} -DTILE_VECTORS={} -DITEM_BLOCKS={}",
-                    body_.count(), tiles_.panel, tiles_.vec, tiles_.vertices, tiles_.vectors, tiles_.blocks));
+    return device_->vector_kernel(
+        "skinning", name, tiles_.vec,
+        fmt::format(" -DJOINTS={} -DPANEL={} -DTILE_VERTICES={} -DTILE_VECTORS={} -DITEM_BLOCKS={}",
+                    body_.count(), tiles_.panel, tiles_.vertices, tiles_.vectors, tiles_.blocks));
 }
 
 Skinning::Skinning(Device& device, const SkinnedBody& body, const SkinningTiles& tiles)

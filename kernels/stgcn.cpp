@@ -65,8 +65,8 @@ Stgcn::Stgcn(Device& device, const Tiles& tiles) : device_(&device), tiles_(tile
     gather_ = device.vector_kernel("graph", "gather", tiles.vec);
     pool_ = device.vector_kernel("graph", "pool", tiles.vec);
     classify_ = device.vector_kernel("graph", "classify", tiles.vec);
-    split_ = device.vector_kernel("temporal", "split", tiles.filter_vec);
-    join_ = device.vector_kernel("temporal", "join", tiles.filter_vec);
+    transform_input_ = device.vector_kernel("temporal", "transform_input", tiles.filter_vec);
+    transform_output_ = device.vector_kernel("temporal", "transform_output", tiles.filter_vec);
 }
 
 cl::Kernel Stgcn::product(bool graph, std::uint32_t a_pitch, std::uint32_t out_pitch) {
@@ -147,22 +147,24 @@ void Stgcn::multiply_graph(const Panels& from, const PackedWeights& weights, con
     multiply(product(true, from.pitch, to.pitch), from, weights, problems, bias, to, rows_used);
 }
 
-void Stgcn::split(const Panels& from, const Panels& to, std::uint32_t sequences, std::uint32_t frames,
-                  std::uint32_t stride) {
+void Stgcn::transform_input(const Panels& from, const Panels& to, std::uint32_t sequences,
+                            std::uint32_t frames, std::uint32_t stride) {
     const auto tile = filtering(stride).tile, tiles = (strided(frames, stride) + tile - 1) / tile;
     const auto strips = from.count * sequences;
-    launch(*device_, split_, {channel_items(to.pitch, tiles_.filter_vec), std::size_t{strips} * tiles, 1},
-           elementwise_group, from.memory, to.memory, stride, sequences, frames, tiles, strips, from.rows,
-           to.rows, to.pitch);
+    launch(*device_, transform_input_,
+           {channel_items(to.pitch, tiles_.filter_vec), std::size_t{strips} * tiles, 1}, elementwise_group,
+           from.memory, to.memory, stride, sequences, frames, tiles, strips, from.rows, to.rows, to.pitch);
 }
 
-void Stgcn::join(const Panels& from, const Buffer<float>& bias, const Panels* residual, const Panels& to,
-                 std::uint32_t sequences, std::uint32_t frames, std::uint32_t stride) {
+void Stgcn::transform_output(const Panels& from, const Buffer<float>& bias, const Panels* residual,
+                             const Panels& to, std::uint32_t sequences, std::uint32_t frames,
+                             std::uint32_t stride) {
     const auto tile = filtering(stride).tile, tiles = (frames + tile - 1) / tile,
                strips = to.count * sequences;
-    launch(*device_, join_, {channel_items(to.pitch, tiles_.filter_vec), std::size_t{strips} * tiles, 1},
-           elementwise_group, from.memory, bias, residual ? residual->memory : bias.memory(), to.memory,
-           residual ? 1U : 0U, stride, sequences, frames, tiles, strips, to.rows, from.rows, to.pitch);
+    launch(*device_, transform_output_,
+           {channel_items(to.pitch, tiles_.filter_vec), std::size_t{strips} * tiles, 1}, elementwise_group,
+           from.memory, bias, residual ? residual->memory : bias.memory(), to.memory, residual ? 1U : 0U,
+           stride, sequences, frames, tiles, strips, to.rows, from.rows, to.pitch);
 }
 
 void Stgcn::pool(const Panels& from, const Buffer<float>& features, std::uint32_t begin,

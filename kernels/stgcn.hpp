@@ -42,7 +42,7 @@ struct Mixture {
     std::uint32_t count = 0;
 };
 
-/// Nine taps of one filter at the points of its minimal filtering, in double: 40 (stride 1) or 16 (stride 2) numbers, in
+/// Winograd's transform of a filter of nine taps (temporal.cl), in double: 40 (stride 1) or 16 (stride 2) numbers, in
 /// the order that temporal.cl gives them.
 std::vector<double> filter_points(std::span<const double, 9> taps, std::uint32_t stride);
 
@@ -93,13 +93,14 @@ class Stgcn {
                         const Buffer<float>& bias, const Panels& to, std::size_t rows);
 
     /// Frames to the points of the temporal convolution.
-    void split(const Panels& from, const Panels& to, std::uint32_t sequences, std::uint32_t frames,
-               std::uint32_t stride);
+    void transform_input(const Panels& from, const Panels& to, std::uint32_t sequences, std::uint32_t frames,
+                         std::uint32_t stride);
 
     /// Points to frames, `frames` of them a sequence after the stride; adds the bias (pitch) and the residual, where there is
     /// one; negatives become 0.
-    void join(const Panels& from, const Buffer<float>& bias, const Panels* residual, const Panels& to,
-              std::uint32_t sequences, std::uint32_t frames, std::uint32_t stride);
+    void transform_output(const Panels& from, const Buffer<float>& bias, const Panels* residual,
+                          const Panels& to, std::uint32_t sequences, std::uint32_t frames,
+                          std::uint32_t stride);
 
     /// Means over frames and joints to features (N, channels), from sequence `begin` on.
     void pool(const Panels& from, const Buffer<float>& features, std::uint32_t begin, std::uint32_t sequences,
@@ -118,7 +119,7 @@ class Stgcn {
 
     Device* device_;
     Tiles tiles_;
-    cl::Kernel enter_, gather_, pool_, classify_, split_, join_;
+    cl::Kernel enter_, gather_, pool_, classify_, transform_input_, transform_output_;
     std::map<std::array<std::uint32_t, 3>, cl::Kernel> products_;  ///< by (graph, pitch of a, pitch of out)
 };
 

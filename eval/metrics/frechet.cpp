@@ -144,7 +144,7 @@ double nuclear_norm(const MatrixXd& a) {
     VectorXd beside(2 * n - 1);
     for (Index i = 0; i < 2 * n - 1; ++i) beside[i] = i % 2 == 0 ? b.diagonal[i / 2] : b.above[i / 2];
     const double largest = beside.cwiseAbs().maxCoeff();
-    for (auto& value : beside)  // noise, over which the iteration would only brood
+    for (auto& value : beside)  // rounding, on which the iteration would spend most of its steps
         if (std::abs(value) < 1e-16 * largest) value = 0;
     Eigen::SelfAdjointEigenSolver<MatrixXd> solver;
     solver.computeFromTridiagonal(VectorXd::Zero(2 * n), beside, Eigen::EigenvaluesOnly);

@@ -40,7 +40,7 @@ Classified classified(const Sum& sum) {
 
 }  // namespace
 
-std::vector<Classified> classify(MotionSource& motions, FeatureExtractor& extractor, const Tell& tell) {
+std::vector<Classified> classify(MotionSource& motions, FeatureExtractor& extractor, const OnProgress& tell) {
     const auto& info = motions.info();
     extractor.check_fits(info);
     extractor.begin_set(info);

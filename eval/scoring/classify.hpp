@@ -25,7 +25,8 @@ struct Classified {
 /// Every clip of `motions` in their order; windows of a clip ("walk@0", "walk@60") count as one by the mean of their logits. Of
 /// equally likely classes the first is the better. Throws Error for motions that do not fit the recogniser, and as the source
 /// does; their own labels and classes do not matter.
-std::vector<Classified> classify(MotionSource& motions, FeatureExtractor& extractor, const Tell& tell = {});
+std::vector<Classified> classify(MotionSource& motions, FeatureExtractor& extractor,
+                                 const OnProgress& tell = {});
 
 /// Names of the recogniser's classes: those in its weights, else the dataset's where there are as many, else A001, A002, ...
 std::vector<std::string> class_names(const RecogniserInfo& recogniser, const MotionsInfo& motions);

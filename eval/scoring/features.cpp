@@ -72,7 +72,7 @@ class Output {
 }  // namespace
 
 FeaturesSummary write_features(MotionSource& motions, std::span<const FeaturesTarget> targets,
-                               const Tell& tell) {
+                               const OnProgress& tell) {
     const auto& info = motions.info();
     for (const auto& target : targets) {
         target.extractor->check_fits(info);

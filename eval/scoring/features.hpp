@@ -23,12 +23,12 @@ struct FeaturesSummary {
         accuracy;  ///< share of sequences whose largest logit is their label's, where labels are known
 };
 
-using Tell = std::function<void(std::uint64_t done, std::uint64_t all)>;
+using OnProgress = std::function<void(std::uint64_t done, std::uint64_t all)>;
 
 /// Shows every motion of `motions` to every target's extractor, one after another. The files appear whole or not at all, rows
 /// in the order of MotionsInfo::names. Memory does not grow with the number of motions, their names apart. The summary is the
 /// first target's. Throws Error for motions that do not fit an extractor, as FeatureExtractor says, and as the source does.
 FeaturesSummary write_features(MotionSource& motions, std::span<const FeaturesTarget> targets,
-                               const Tell& tell = {});
+                               const OnProgress& tell = {});
 
 }  // namespace actformer::eval

@@ -37,27 +37,27 @@ void find_up(const ingest::Dataset& dataset, const ingest::BodyModel& body, Meas
 
 }  // namespace
 
-std::optional<MeasuringTape> tape_for(const ingest::Dataset& dataset) try {
+std::optional<MeasurementSetup> measurement_setup(const ingest::Dataset& dataset) try {
     const auto subjects = ingest::subjects_of(dataset);
-    MeasuringTape tape{subjects, {}, subjects.persons};
-    tape.measured.parents = subjects.topology.parents;
-    tape.measured.feet = feet_among(subjects.topology.names);
-    tape.measured.fps = subjects.fps;
-    find_up(dataset, subjects, tape.measured);
-    return tape;
+    MeasurementSetup setup{subjects, {}, subjects.persons};
+    setup.measured.parents = subjects.topology.parents;
+    setup.measured.feet = feet_among(subjects.topology.names);
+    setup.measured.fps = subjects.fps;
+    find_up(dataset, subjects, setup.measured);
+    return setup;
 } catch (const Error&) {
     return {};  // its motions have no joint positions
 }
 
-bool fits(const MeasuringTape& tape, const MotionsInfo& motions) {
-    const auto& how = tape.body.representation;
-    return motions.representation == how && motions.joints == how.nodes(tape.body.topology) &&
-           motions.channels == tape.persons * how.numbers();
+bool fits(const MeasurementSetup& setup, const MotionsInfo& motions) {
+    const auto& how = setup.body.representation;
+    return motions.representation == how && motions.joints == how.nodes(setup.body.topology) &&
+           motions.channels == setup.persons * how.numbers();
 }
 
-MeasuredSource::MeasuredSource(std::unique_ptr<MotionSource> from, const MeasuringTape& tape,
+MeasuredSource::MeasuredSource(std::unique_ptr<MotionSource> from, const MeasurementSetup& setup,
                                kernels::Device& device)
-    : from_(std::move(from)), tape_(tape), device_(device) {}
+    : from_(std::move(from)), setup_(setup), device_(device) {}
 
 MotionBatch MeasuredSource::next() {
     const auto batch = from_->next();
@@ -72,13 +72,13 @@ MotionBatch MeasuredSource::next() {
     }
     ingest::Motion motion;
     motion.frames = batch.frames;
-    motion.persons = tape_.persons;
+    motion.persons = setup_.persons;
     motion.nodes = info().joints;
-    motion.numbers = tape_.body.representation.numbers();
+    motion.numbers = setup_.body.representation.numbers();
     motion.values.resize(one);
     for (std::size_t i = 0; i < batch.rows.size(); ++i) {
         ingest::take_channels_first(values.subspan(i * one, one), motion);
-        measure(ingest::joint_positions(motion, tape_.body), batch.frames, tape_.persons, tape_.measured,
+        measure(ingest::joint_positions(motion, setup_.body), batch.frames, setup_.persons, setup_.measured,
                 passed_);
     }
     rows_.insert(rows_.end(), batch.rows.begin(), batch.rows.end());

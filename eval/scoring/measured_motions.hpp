@@ -13,25 +13,26 @@
 namespace actformer::eval {
 
 /// How motions of a dataset are measured.
-struct MeasuringTape {
+struct MeasurementSetup {
     ingest::BodyModel
         body;  ///< with mean bone lengths: real and generated motions are measured with the same
     MeasuredBody measured;
     std::uint32_t persons = 1;
 };
 
-/// The axis along which bodies stand is that of up to 50 clips. None where joint positions cannot be had, as of rotations without
+/// The axis along which bodies stand is that of 50 to 99 clips, or of all where there are fewer. None where joint positions cannot be had, as of rotations without
 /// a rest skeleton.
-std::optional<MeasuringTape> tape_for(const ingest::Dataset& dataset);
+std::optional<MeasurementSetup> measurement_setup(const ingest::Dataset& dataset);
 
-/// Whether motions have the nodes and persons that the tape measures.
-bool fits(const MeasuringTape& tape, const MotionsInfo& motions);
+/// Whether motions have the nodes and persons that the setup measures.
+bool fits(const MeasurementSetup& setup, const MotionsInfo& motions);
 
-/// Motions of another source, measured as they pass. Both outlive it.
+/// Motions of another source, which it owns, measured as they pass. The setup and the device must outlive it.
 class MeasuredSource final : public MotionSource {
   public:
-    /// Motions that fit the tape; those on the device are read back through `device`.
-    MeasuredSource(std::unique_ptr<MotionSource> from, const MeasuringTape& tape, kernels::Device& device);
+    /// Motions that fit the setup; those on the device are read back through `device`.
+    MeasuredSource(std::unique_ptr<MotionSource> from, const MeasurementSetup& setup,
+                   kernels::Device& device);
 
     const MotionsInfo& info() const override { return from_->info(); }
     MotionBatch next() override;
@@ -41,13 +42,15 @@ class MeasuredSource final : public MotionSource {
 
   private:
     std::unique_ptr<MotionSource> from_;
-    const MeasuringTape& tape_;
+    const MeasurementSetup& setup_;
     kernels::Device& device_;
     std::vector<float> read_back_;
     std::vector<std::uint64_t> rows_;  ///< as they passed
     MotionMeasures passed_;
 };
 
+/// HDF5: limb_acceleration, root_acceleration, foot_sliding (n), distances (n, pairs), those that there are. Writing throws Error as write_whole
+/// does, reading as hdf5::Reader.
 void write_measures(const std::filesystem::path& path, const MotionMeasures& measures);
 MotionMeasures read_measures(const std::filesystem::path& path);
 

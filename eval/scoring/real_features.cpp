@@ -50,7 +50,7 @@ fs::path features_cached_at(const FeatureExtractor& extractor, const WindowsOpti
 }
 
 CachedFeatures cached_features(FeatureExtractor& extractor, const WindowsOptions& windows,
-                               const fs::path& elsewhere, kernels::Device& device, const Tell& tell) {
+                               const fs::path& elsewhere, kernels::Device& device, const OnProgress& tell) {
     const auto make = [&](const fs::path& file) {
         const FeaturesTarget target{&extractor, file};
         write_features(*open_windows(device, windows), std::span(&target, 1), tell);

@@ -24,6 +24,6 @@ struct CachedFeatures {
 /// open_windows, write_features and read_features do.
 CachedFeatures cached_features(FeatureExtractor& extractor, const WindowsOptions& windows,
                                const std::filesystem::path& elsewhere, kernels::Device& device,
-                               const Tell& tell = {});
+                               const OnProgress& tell = {});
 
 }  // namespace actformer::eval

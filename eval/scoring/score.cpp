@@ -56,7 +56,7 @@ class Sides {
           progress_(progress),
           dataset_(request.real.dataset),
           dataset_checksum_(ingest::dataset_checksum(request.real.dataset)),
-          tape_(tape_for(dataset_)) {
+          setup_(measurement_setup(dataset_)) {
         if (!request.recogniser.empty())
             whole_.emplace(device, request.recogniser, request.real.batch, Persons::together,
                            request.initial_noise);
@@ -169,7 +169,7 @@ class Sides {
                 set.name);
     }
 
-    Tell tell(const std::string& what) const {
+    OnProgress tell(const std::string& what) const {
         if (!progress_) return {};
         return [this, what](std::uint64_t done, std::uint64_t all) { progress_(what, done, all); };
     }
@@ -218,10 +218,10 @@ class Sides {
 
     /// Of the real windows; they lie in the work folder until scoring has ended.
     std::optional<MotionMeasures> real_measures() {
-        if (!tape_) return {};
+        if (!setup_) return {};
         const auto file = real_measures_file();
         if (is_kept(file)) return read_measures(file);
-        MeasuredSource real(open_windows(device_, request_.real), *tape_, device_);
+        MeasuredSource real(open_windows(device_, request_.real), *setup_, device_);
         while (!real.next().rows.empty()) continue;
         write_measures(file, real.measures());
         return real.measures();
@@ -234,11 +234,11 @@ class Sides {
             if (extractor && !is_kept(file_of(set, *extractor)))
                 missing.push_back({extractor, file_of(set, *extractor)});
         auto motions = set.open();
-        if (!tape_ || !fits(*tape_, motions->info()) || is_kept(measures_of(set.key))) {
+        if (!setup_ || !fits(*setup_, motions->info()) || is_kept(measures_of(set.key))) {
             if (!missing.empty()) write_features(*motions, missing, tell(set.name));
             return;
         }
-        MeasuredSource measured(std::move(motions), *tape_, device_);
+        MeasuredSource measured(std::move(motions), *setup_, device_);
         if (missing.empty())
             while (!measured.next().rows.empty()) continue;
         else
@@ -251,7 +251,7 @@ class Sides {
     const ScoreProgress& progress_;
     ingest::Dataset dataset_;
     std::string dataset_checksum_;
-    std::optional<MeasuringTape> tape_;  ///< none where motions cannot be measured
+    std::optional<MeasurementSetup> setup_;  ///< none where motions cannot be measured
     std::optional<FeatureExtractor> whole_, single_;
     std::vector<std::string> classes_, views_, notes_;
     StoredFeatures first_repeat_;  ///< its frames

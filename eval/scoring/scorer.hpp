@@ -19,7 +19,7 @@ struct Observed {
     std::string source;              ///< for messages
 };
 
-/// Throws Error unless the sides have as many classes, dimensions, and both or neither groups.
+/// Throws Error unless the sides have as many classes and dimensions, those of groups too where both have groups, and as many measures as samples.
 void check_comparable(const Observed& real, const Observed& generated);
 
 /// How a paper's tables are measured.

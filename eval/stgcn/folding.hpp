@@ -8,11 +8,6 @@
 
 namespace actformer::eval {
 
-/// A 1x1 convolution (in, out) with its bias (out).
-struct FoldedConvolution {
-    std::vector<double> weight, bias;
-};
-
 struct FoldedLayer {
     std::uint32_t in = 0, out = 0, stride = 1;
     std::array<Adjacency, 3> mixing;   ///< partition times edge importance, (K, K) each

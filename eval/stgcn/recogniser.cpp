@@ -163,16 +163,17 @@ void StgcnRecogniser::Network::run_layer(std::size_t index, std::uint32_t sequen
 
     const auto points = view(space.spread, filter.points_in, tiles, layer.out);
     const auto products = view(space.products, filter.points_out, tiles, layer.out);
-    kernels.split(y, points, sequences, frames, layer.stride);
-    done(index, Step::split);
+    kernels.transform_input(y, points, sequences, frames, layer.stride);
+    done(index, Step::transform_input);
     kernels.multiply(points, layer.temporal_weight, layer.temporal, products, tiles);
     done(index, Step::temporal);
     const auto residual =
         view(layer.residual_convolution ? space.residual : space.x, joints, rows_after, layer.out);
     const bool adds = layer.residual_convolution || layer.identity_residual;
-    kernels.join(products, layer.temporal_bias, adds ? &residual : nullptr,
-                 view(space.x_next, joints, rows_after, layer.out), sequences, after, layer.stride);
-    done(index, Step::join);
+    kernels.transform_output(products, layer.temporal_bias, adds ? &residual : nullptr,
+                             view(space.x_next, joints, rows_after, layer.out), sequences, after,
+                             layer.stride);
+    done(index, Step::transform_output);
     std::swap(space.x, space.x_next);
 }
 

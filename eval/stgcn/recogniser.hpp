@@ -10,7 +10,7 @@
 namespace actformer::eval {
 
 /// The steps of a layer, for timing.
-enum class Step { enter, gather, graph, split, temporal, join, residual, pool };
+enum class Step { enter, gather, graph, transform_input, temporal, transform_output, residual, pool };
 
 /// tiles().sequences sequences go through the network together, or fewer where the device's memory asks for it.
 class StgcnRecogniser final : public Recogniser {

@@ -12,7 +12,7 @@ namespace actformer::eval {
 /// $XDG_CACHE_HOME/actformer/tiles.json, or the same under ~/.cache.
 std::filesystem::path tiles_file();
 
-/// What was found for this device and driver, else default_tiles(). A damaged file counts as none.
+/// The tiles found for this device and driver, else default_tiles(). Throws Error where the file is damaged.
 kernels::Tiles load_tiles(const kernels::DeviceInfo& device);
 
 /// Keeps `tiles` for this device and driver. Throws Error where the file cannot be written.

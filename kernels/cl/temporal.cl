@@ -1,5 +1,6 @@
-// Temporal convolutions of 9 taps by minimal filtering: `split` takes tiles of frames to the points of the filtering, where
-// multiply.cl multiplies by the weights, and `join` takes the products back to frames. Padding is 4 frames of zeros.
+// Temporal convolutions of 9 taps by Winograd's minimal filtering (Winograd 1980; Lavin and Gray, CVPR 2016): `transform_input` takes tiles of
+// frames to the points of the filtering, where multiply.cl multiplies by the weights, and `transform_output` takes the products back to
+// frames. Padding is 4 frames of zeros.
 //
 // Data layout
 //   frames    (K, rows, pitch)            row n * T + t of joint k's plane; `rows` is padded to whole tiles of the multiply
@@ -158,10 +159,10 @@ void join_strided_tile(global const float* from, VECTOR bias, global const float
 }
 
 // A work-item takes a tile, and of its channels every get_global_size(0)-th vector. `length` counts frames here and
-// results in `join`. With `stride` 2 both do so at a stride.
-kernel void split(global const float* restrict frames, global float* restrict points, uint stride,
-                  uint sequences, uint length, uint tiles, uint strips, uint rows, uint tile_rows,
-                  uint pitch) {
+// results in `transform_output`. With `stride` 2 both do so at a stride.
+kernel void transform_input(global const float* restrict frames, global float* restrict points, uint stride,
+                            uint sequences, uint length, uint tiles, uint strips, uint rows, uint tile_rows,
+                            uint pitch) {
     const uint row = get_global_id(1), strip = row / tiles;
     if (strip >= strips) return;
     const size_t first = (size_t)(strip / sequences) * rows + strip % sequences * length;
@@ -177,12 +178,12 @@ kernel void split(global const float* restrict frames, global float* restrict po
     }
 }
 
-// A work-item as in `split`. Adds the bias and, where `add` is 1, the residual, which is laid out as the frames; negatives
+// A work-item as in `transform_input`. Adds the bias and, where `add` is 1, the residual, which is laid out as the frames; negatives
 // become 0.
-kernel void join(global const float* restrict points, global const float* restrict bias,
-                 global const float* restrict residual, global float* restrict frames, uint add, uint stride,
-                 uint sequences, uint length, uint tiles, uint strips, uint rows, uint tile_rows,
-                 uint pitch) {
+kernel void transform_output(global const float* restrict points, global const float* restrict bias,
+                             global const float* restrict residual, global float* restrict frames, uint add,
+                             uint stride, uint sequences, uint length, uint tiles, uint strips, uint rows,
+                             uint tile_rows, uint pitch) {
     const uint row = get_global_id(1), strip = row / tiles;
     if (strip >= strips) return;
     const size_t first = (size_t)(strip / sequences) * rows + strip % sequences * length;

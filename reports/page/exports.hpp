@@ -15,7 +15,7 @@ nlohmann::ordered_json to_json(const std::vector<FilledTable>& tables,
 std::string to_csv(const std::vector<FilledTable>& tables);
 
 /// A `table` with booktabs rules each: measured figures, intervals in small print, the best of a column in bold, "--" for what
-/// was not run. The paper's figures are not in it: who publishes shows their own.
+/// was not run. The paper's figures are not in it: a user publishes their own.
 std::string to_latex(const std::vector<FilledTable>& tables);
 
 }  // namespace actformer::reports

@@ -25,8 +25,7 @@ JointMotion body_of(const JointMotion& motion) {
     return motion;
 }
 
-/// The joint of the head that lies furthest from the root among those that are not mere end sites; -1 without
-/// one.
+/// The first joint whose name has "head" in it; -1 without one.
 int head_joint(const ingest::Topology& topology) {
     for (std::size_t j = 0; j < topology.joints(); ++j) {
         std::string name;

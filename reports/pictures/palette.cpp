@@ -54,7 +54,7 @@ std::vector<Counted> count_colours(const std::vector<cv::Mat>& pictures) {
         // many colours.
         out.push_back({cv::Vec3b(key & 255, (key >> 8) & 255, (key >> 16) & 255),
                        std::pow(static_cast<double>(count), 0.7)});
-    // The map's order is nobody's business: the same pictures give the same palette.
+    // Sorted, as the map's order differs between libraries: the same pictures give the same palette.
     std::ranges::sort(out, {},
                       [](const Counted& c) { return c.colour[0] | c.colour[1] << 8 | c.colour[2] << 16; });
     return out;

@@ -173,12 +173,13 @@ TEST(Temporal, ConvolvesAsPlainSumsDo) {
                     Buffer<std::uint32_t>(device, first), Buffer<std::uint32_t>(device, segments),
                     Buffer<float>(device, std::vector<float>(segments.size() / 2, 1.0F)), filter.points_out};
                 const auto bias = made(out.panels.pitch, 7);
-                kernels.split(x.panels, points.panels, sequences, frames, stride);
+                kernels.transform_input(x.panels, points.panels, sequences, frames, stride);
                 kernels.multiply(points.panels, kernels.pack(weights, filter.points_in, width, width),
                                  problems, products.panels, rows);
                 for (const bool add : {false, true}) {
-                    kernels.join(products.panels, Buffer<float>(device, bias),
-                                 add ? &residual.panels : nullptr, out.panels, sequences, after, stride);
+                    kernels.transform_output(products.panels, Buffer<float>(device, bias),
+                                             add ? &residual.panels : nullptr, out.panels, sequences, after,
+                                             stride);
                     out.fetch();
                     for (std::size_t k = 0; k < joints; ++k)
                         for (std::size_t n = 0; n < sequences; ++n)
