@@ -51,10 +51,10 @@ double Confusion::per_cent(std::size_t truth, std::size_t guess) const {
 std::string Confusion::square(const std::vector<std::string>& names, const std::vector<std::size_t>& shown,
                               std::size_t width) const {
     auto out = fmt::format("{:<{}} samples", "truth", width + 4);
-    for (const auto c : shown) out += fmt::format(" {:>4}", c);
+    for (const auto c : shown) out += fmt::format(" {:>4}", c + 1);
     out += "  (per cent taken for class ..)\n";
     for (const auto c : shown) {
-        out += fmt::format("{:>3} {:<{}} {:>7}", c, names[c], width, row_sum(c));
+        out += fmt::format("{:>3} {:<{}} {:>7}", c + 1, names[c], width, row_sum(c));
         for (const auto g : shown) out += at(c, g) == 0 ? "    ." : fmt::format(" {:>4.0f}", per_cent(c, g));
         out += "\n";
     }
@@ -68,7 +68,7 @@ std::string Confusion::list(const std::vector<std::string>& names, const std::ve
                            width + 4);
     for (const auto c : shown) {
         if (row_sum(c) == 0) continue;
-        out += fmt::format("{:>3} {:<{}} {:>7} {:>7.0f}", c, names[c], width, row_sum(c), per_cent(c, c));
+        out += fmt::format("{:>3} {:<{}} {:>7} {:>7.0f}", c + 1, names[c], width, row_sum(c), per_cent(c, c));
         std::vector<std::size_t> others;
         for (const auto g : shown)
             if (g != c && at(c, g) > 0) others.push_back(g);

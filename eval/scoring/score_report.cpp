@@ -110,7 +110,6 @@ Json class_json(const ScoreReport& report, std::size_t c) {
     };
     const auto fid = [&](const Score& s) { return of_class(s.fid); };
     const auto fida = [&](const Score& s) { return of_class(s.fid_groups); };
-    const auto floor = [&](const Score& s) { return s.fid ? fid(s) : fida(s); };
     Json out{{"class", report.classes[c]},
              {"label", c},
              {"real", report.real[c]},
@@ -118,13 +117,22 @@ Json class_json(const ScoreReport& report, std::size_t c) {
              {"accuracy", number(mean_of(report, [c](const Score& s) { return class_accuracy(s, c); }))},
              {"fid", number(mean_of(report, fid))},
              {"fida", number(mean_of(report, fida))},
-             {"floor", report.floor ? number(floor(report.floor->score)) : Json(nullptr)}};
+             {"floor", report.floor ? number(fid(report.floor->score)) : Json(nullptr)},
+             {"fida_floor", report.floor ? number(fida(report.floor->score)) : Json(nullptr)}};
     if (report.repeats[0].motion_by_class.empty()) return out;
     for (const auto& value : metric_values())
         if (value.of_motion)
             out[std::string(value.name)] = number(
                 mean_of(report, [&](const Score& s) { return s.motion_by_class[c].*(value.of_motion); }));
     return out;
+}
+
+/// What real motions measure, and no distances: of the real side to itself they are 0.
+void add_real_motion(const MotionScore& motion, Json& real) {
+    for (const auto& value : metric_values())
+        if (value.of_motion && find_metric(value.name)->direction != Direction::lower &&
+            motion.*(value.of_motion))
+            real[std::string(value.name)] = *(motion.*(value.of_motion));
 }
 
 Json floor_json(const Floor& floor) {
@@ -211,10 +219,7 @@ nlohmann::ordered_json to_json(const ScoreReport& report) {
                    {"accuracy", number(report.real_accuracy)},
                    {"diversity", number(report.real_diversity)},
                    {"multimodality", number(report.real_multimodality)}};
-    if (report.real_motion)
-        for (const auto& value : metric_values())
-            if (const auto real = value.of_motion ? (*report.real_motion).*(value.of_motion) : std::nullopt)
-                out["real"][std::string(value.name)] = *real;
+    if (report.real_motion) add_real_motion(*report.real_motion, out["real"]);
     out["per_class"] = Json::array();
     for (std::size_t c = 0; c < report.classes.size(); ++c) out["per_class"].push_back(class_json(report, c));
     if (report.repeats[0].confusion) out["confusion"] = confusion_json(report);

@@ -45,7 +45,7 @@ class Scores:
     """
 
     metrics: Dict[str, Metric]
-    classes: List[Dict[str, Any]]  # a class each: label, real, generated, accuracy, fid ...
+    classes: List[Dict[str, Any]]  # a class each: label from 0, real, generated, accuracy, fid ...
     confusion: Optional[List[List[int]]]  # row: true class; column: recognised as
     left_out: List[Dict[str, Any]]  # classes with under two samples on a side
     warnings: List[str]

@@ -90,7 +90,7 @@ struct ClassMetric {
 };
 constexpr ClassMetric class_metrics[] = {{"accuracy", "accuracy", "accuracy", nullptr},
                                          {"fid", "FID", "fid_mean", "floor"},
-                                         {"fida", "FIDa", "fida_mean", nullptr}};
+                                         {"fida", "FIDa", "fida_mean", "fida_floor"}};
 
 /// [{"key", "heading", "unit", "better", "floor"}]: the columns of per_class()
 Json class_columns() {
@@ -138,7 +138,7 @@ void add_scores(Json& row, const Json& scored, const Classes& classes) {
     row["classes"] = Json::array();
     for (const auto label : classes.labels) {
         const auto& name = loose::member(scored["per_class"][label], "class");
-        row["classes"].push_back(name.is_string() ? name : Json(fmt::format("class {}", label)));
+        row["classes"].push_back(name.is_string() ? name : Json(fmt::format("class {}", label + 1)));
     }
     row["scores"] = scores_of(scored);
     row["warnings"] = loose::list(scored, "warnings");

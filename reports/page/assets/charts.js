@@ -203,7 +203,7 @@ const charts = (() => {
     const body = html("tbody");
     for (const c of data.classOrder(perClass, metrics.find((m) => m.key === order))) {
       const entry = perClass[c];
-      const name = html("th", { scope: "row", title: `${entry.real} real, ${entry.generated} generated` }, classes[c] ?? `class ${c}`);
+      const name = html("th", { scope: "row", title: `${entry.real} real, ${entry.generated} generated` }, classes[c] ?? `class ${c + 1}`);
       const line = html("tr", c === chosen ? { class: "chosen" } : {}, name, ...columns.map((column) => barCell(column, entry)));
       line.addEventListener("click", () => choose(c));
       body.append(line);
@@ -279,7 +279,7 @@ const charts = (() => {
   function commonest(classes, confusion) {
     const found = data.commonConfusions(confusion, 5);
     if (!found.length) return html("p", {}, "Every motion was recognised as the action asked for.");
-    const name = (c) => html("b", {}, classes[c] ?? `class ${c}`);
+    const name = (c) => html("b", {}, classes[c] ?? `class ${c + 1}`);
     return html("div", { class: "commonest" }, html("h3", {}, "Commonest confusions"), html("ol", {}, ...found.map((f) =>
       html("li", {}, name(f.asked), " taken for ", name(f.recognised), `: ${f.count} of ${f.of} (${share(f.count, f.of)})`))));
   }

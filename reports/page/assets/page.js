@@ -37,7 +37,7 @@ function showRun() {
 
 // --- Motions --------------------------------------------------------------------------------------
 
-const actionName = (action) => (action < 0 ? "all actions" : row().classes?.[action] ?? `class ${action}`);
+const actionName = (action) => (action < 0 ? "all actions" : row().classes?.[action] ?? `class ${action + 1}`);
 
 function showMotions() {
   const found = data.motionsOf(report, row(), chosen.action, MOST);

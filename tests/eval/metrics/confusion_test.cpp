@@ -49,10 +49,10 @@ TEST(Confusion, ShowsOnlyTheClassesThatOccur) {
     add(c, 8, 8, 2);
     const auto lines = lines_of(c.table(numbered(94)));
     ASSERT_EQ(lines.size(), 4U) << "a heading, two classes with samples, and one that was guessed";
-    EXPECT_EQ(lines[0], "truth        samples    5    8   70  (per cent taken for class ..)");
-    EXPECT_EQ(lines[1], "  5 class-5        4   75    .   25");
-    EXPECT_EQ(lines[2], "  8 class-8        2    .  100    .");
-    EXPECT_EQ(lines[3], " 70 class-70       0    .    .    .");
+    EXPECT_EQ(lines[0], "truth        samples    6    9   71  (per cent taken for class ..)");
+    EXPECT_EQ(lines[1], "  6 class-5        4   75    .   25");
+    EXPECT_EQ(lines[2], "  9 class-8        2    .  100    .");
+    EXPECT_EQ(lines[3], " 71 class-70       0    .    .    .");
 }
 
 TEST(Confusion, ListsManyClassesWithTheirCommonestMistakes) {
@@ -64,8 +64,8 @@ TEST(Confusion, ListsManyClassesWithTheirCommonestMistakes) {
     add(c, 20, 60, 1);
     const auto lines = lines_of(c.table(numbered(94)));
     ASSERT_EQ(lines.size(), 95U);
-    EXPECT_EQ(lines[1], "  0 class-0        4     100");
-    EXPECT_EQ(lines[21], " 20 class-20      10      40  20 class-40, 20 class-50, 10 class-3");
+    EXPECT_EQ(lines[1], "  1 class-0        4     100");
+    EXPECT_EQ(lines[21], " 21 class-20      10      40  20 class-40, 20 class-50, 10 class-3");
     for (const auto& line : lines) EXPECT_LE(line.size(), 80U);
 }
 
