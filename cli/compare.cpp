@@ -13,6 +13,7 @@
 #include "base/process/process.hpp"
 #include "base/text/loose_json.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/format.hpp"
 #include "cli/report.hpp"
 #include "cli/say.hpp"
@@ -39,8 +40,10 @@ struct CompareOptions {
 struct Compared {
     const eval::Metric* metric = nullptr;
     eval::Interval a, b;
-    eval::Interval difference;     ///< of B less A, seed by seed
-    std::optional<double> real;    ///< of real motions
+    eval::Interval difference;   ///< of B less A, seed by seed
+    std::optional<double> real;  ///< of real motions
+    std::optional<eval::Interval>
+        further;  ///< how much further than A's B's values are from it, where nearest is best
     std::optional<bool> b_better;  ///< where the interval says so
 };
 
@@ -106,13 +109,6 @@ std::vector<double> repeats_of(const Json& scores, const eval::Metric& metric) {
     return values;
 }
 
-/// The interval of the differences between corresponding values.
-eval::Interval interval_between(const std::vector<double>& a, const std::vector<double>& b) {
-    std::vector<double> differences(a.size());
-    for (std::size_t i = 0; i < a.size(); ++i) differences[i] = b[i] - a[i];
-    return eval::interval(differences);
-}
-
 /// Every value's distance from the best one that there is.
 std::vector<double> distances(const std::vector<double>& values, const Compared& of) {
     std::vector<double> out;
@@ -129,13 +125,14 @@ std::optional<Compared> compared(const Json& a, const Json& b, const eval::Metri
     if (of_a.empty() || of_a.size() != of_b.size()) return {};
     out.a = eval::interval(of_a);
     out.b = eval::interval(of_b);
-    out.difference = interval_between(of_a, of_b);
+    out.difference = eval::paired_difference(of_a, of_b);
     if (const auto& real = loose::member(loose::member(a, "real"), std::string(metric.name).c_str());
         real.is_number())
         out.real = metric.scale * real.get<double>();
     if (metric.direction == eval::Direction::nearest_real && !out.real) return out;
-    const auto further = interval_between(distances(of_a, out), distances(of_b, out));
+    const auto further = eval::paired_difference(distances(of_a, out), distances(of_b, out));
     if (further.half_width && std::abs(further.mean) > *further.half_width) out.b_better = further.mean < 0;
+    if (metric.direction == eval::Direction::nearest_real) out.further = further;
     return out;
 }
 
@@ -152,10 +149,12 @@ std::string text_of(const eval::Interval& interval, bool with_sign = false) {
     return interval.half_width ? mean + " ± " + reports::figure_text(*interval.half_width) : mean;
 }
 
-const char* verdict(const Compared& one) {
+std::string verdict(const Compared& one) {
     if (!one.difference.half_width) return "one repeat: chance is not told";
-    if (!one.b_better) return "no difference shown";
-    return *one.b_better ? "B is better" : "A is better";
+    const std::string found = !one.b_better   ? "no difference shown"
+                              : *one.b_better ? "B is better"
+                                              : "A is better";
+    return one.further ? found + ": distance from real " + text_of(*one.further, true) : found;
 }
 
 /// What `score` warned of, once where it is the same of both sides.
@@ -199,6 +198,7 @@ Json to_json(const std::vector<Compared>& all, const std::vector<std::string>& w
         auto& entry = metrics[std::string(one.metric->name)];
         entry = {{"a", to_json(one.a)}, {"b", to_json(one.b)}, {"difference", to_json(one.difference)}};
         if (one.real) entry["real"] = *one.real;
+        if (one.further) entry["distance_from_real"] = to_json(*one.further);
         entry["better"] = one.b_better ? Json(*one.b_better ? "b" : "a") : Json();
     }
     return {{"metrics", metrics}, {"warnings", warnings}, {"report", page.string()}};
@@ -293,7 +293,7 @@ void add_compare(CLI::App& app) {
     command->add_option("--window", options->window, "Frames a motion")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
-    command->add_option("--device", options->device, "OpenCL device: a number, gpu, cpu, or part of a name");
+    add_device_option(command, options->device);
     command->add_option("-o,--out", options->out, "Folder of scores, features and report.html")
         ->required()
         ->type_name("DIR");
@@ -307,8 +307,12 @@ void add_compare(CLI::App& app) {
         "cmu -o c\n"
         "  actformer compare old.h5 new.h5 --recogniser recogniser --real cmu -o motions-compared\n"
         "Differences are taken seed by seed. A difference whose 95 % interval contains 0 is not "
-        "significant.\n");
-    command->callback([options] { run(*options); });
+        "significant. Where nearest to real is best, distances from real are compared.\n");
+    command->callback([options, command] {
+        if (holds_motions(options->a) && holds_motions(options->b))
+            refuse_given(*command, {"--repeats", "--per-class"}, "motions files are scored as they are");
+        run(*options);
+    });
 }
 
 }  // namespace actformer::cli

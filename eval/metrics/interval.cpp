@@ -3,6 +3,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 namespace actformer::eval {
 
@@ -45,6 +46,12 @@ Interval interval(std::span<const double> values) {
 
 Interval normal_interval(std::span<const double> values) {
     return interval_by(values, [](std::size_t) { return 1.96; });
+}
+
+Interval paired_difference(std::span<const double> a, std::span<const double> b) {
+    std::vector<double> differences(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i) differences[i] = b[i] - a[i];
+    return interval(differences);
 }
 
 Interval difference(std::span<const double> a, std::span<const double> b) {

@@ -24,6 +24,9 @@ Interval normal_interval(std::span<const double> values);
 /// (Welch, Biometrika 1947). Each of at least one value; no half-width where one has no more.
 Interval difference(std::span<const double> a, std::span<const double> b);
 
+/// The same where a[i] and b[i] belong together, as two generators' scores with one seed: the interval of b[i] - a[i]. As many of both.
+Interval paired_difference(std::span<const double> a, std::span<const double> b);
+
 /// t with P(|T| <= t) = 0.95 for `degrees` degrees of freedom, at least 1.
 double student_95(std::size_t degrees);
 

@@ -77,6 +77,7 @@ struct Column {
 struct Candidate {
     std::size_t row;
     std::vector<double> distances;
+    bool over_seeds;  ///< of trainings, rather than of sets of motions that one generator made
 };
 
 double mean_of(const Candidate& candidate) {
@@ -94,7 +95,7 @@ std::vector<Candidate> candidates(Column column, Values values, Real real) {
         const bool comparable = ideal || column.better() != eval::Direction::nearest_real;
         const bool finite = std::ranges::all_of(mine, [](double value) { return std::isfinite(value); });
         if (mine.empty() || !finite || !comparable || column.table.paper->real == r) continue;
-        auto& candidate = out.emplace_back(Candidate{r, {}});
+        auto& candidate = out.emplace_back(Candidate{r, {}, column.at(r).over_seeds});
         for (const double value : mine)
             candidate.distances.push_back(distance_from_best(column.better(), value, ideal.value_or(0)));
     }
@@ -102,9 +103,12 @@ std::vector<Candidate> candidates(Column column, Values values, Real real) {
     return out;
 }
 
-/// Chance alone is not enough to make `one` that much further away than `best`.
+/// Chance alone is not enough to make `one` that much further away than `best`. Sets of motions are paired, as the i-th of every generator
+/// has the same seed; trainings of different networks have nothing in common.
 bool surely_further(const Candidate& one, const Candidate& best) {
-    const auto further = eval::difference(best.distances, one.distances);
+    const bool paired = !one.over_seeds && !best.over_seeds && one.distances.size() == best.distances.size();
+    const auto further = paired ? eval::paired_difference(best.distances, one.distances)
+                                : eval::difference(best.distances, one.distances);
     return further.half_width && further.mean > *further.half_width;
 }
 

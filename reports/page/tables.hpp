@@ -18,8 +18,8 @@ struct Figures {
     bool over_seeds = false;
     std::optional<double> real;  ///< of real motions, where the scores tell
     PaperFigure paper;
-    /// Of the table's column, by the metric's direction: better than each of the others by a difference whose 95 % interval holds no 0; and the
-    /// best of those that the paper prints.
+    /// Of the table's column, by the metric's direction: better than each of the others by a difference whose 95 % interval holds no 0 (Welch's
+    /// over trainings, of paired sets of motions otherwise); and the best of those that the paper prints.
     bool best = false, paper_best = false;
 };
 

@@ -106,7 +106,10 @@ TEST_F(Compare, TakesMotionsAndSaysThatOneRepeatTellsNothingOfChance) {
         ASSERT_EQ(
             run_actformer("generate --generator " + at(name) + " --per-class 3 -o " + at(name) + ".h5").exit,
             0);
-    const auto result = compare("one.h5", "other.h5", "out");
+    expect_refused(compare("one.h5", "other.h5", "out"), {"--repeats", "motions files", "leave it out"});
+    const auto result =
+        run_actformer("compare " + at("one.h5") + " " + at("other.h5") + " --recogniser " + at("r") +
+                      " --real " + toy().string() + " --split s/train --window 20 -o " + at("out"));
     ASSERT_EQ(result.exit, 0) << result.output;
     EXPECT_NE(result.output.find("one repeat: chance is not told"), std::string::npos) << result.output;
     EXPECT_EQ(result.output.find(" is better"), std::string::npos) << result.output;

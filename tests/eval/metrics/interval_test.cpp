@@ -29,6 +29,15 @@ TEST(Interval, OfADifferenceIsWelchs) {
     EXPECT_EQ(eval::difference(same, same).half_width, 0);
 }
 
+TEST(Interval, OfPairsIsThatOfTheirDifferences) {
+    const std::vector<double> a{1, 5, 9}, b{2, 7, 10};  // differences 1 2 1: mean 4 / 3, s^2 = 1 / 3
+    const auto got = eval::paired_difference(a, b);
+    EXPECT_NEAR(got.mean, 4.0 / 3, 1e-12);
+    EXPECT_NEAR(*got.half_width, 4.30265 * std::sqrt(1.0 / 3 / 3), 1e-4);
+    EXPECT_GT(*eval::difference(a, b).half_width, 4)
+        << "where they do not belong together they vary by themselves";
+}
+
 TEST(Interval, OfRepeats) {
     const std::vector<double> values{1, 2, 3, 6};  // s^2 = 14 / 3
     const auto got = eval::interval(values);
