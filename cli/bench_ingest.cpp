@@ -16,6 +16,7 @@
 #include "base/process/usage.hpp"
 #include "cli/bench.hpp"
 #include "cli/bench_babel.hpp"
+#include "cli/common_options.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
@@ -273,7 +274,7 @@ void add_bench_ingest(CLI::App& bench) {
     command->add_option("--repeats", options->repeats, "Runs, of which the best counts")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
-    command->add_option("--device", options->device, "OpenCL device: a number, gpu, cpu, or part of a name");
+    add_device_option(command, options->device);
     command->add_option("--threads", options->threads, "Threads that read and parse (default: all cores)")
         ->check(CLI::Range(0U, most_threads));
     command->add_flag("--json", options->json, "Print JSON");

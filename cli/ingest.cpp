@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
@@ -78,7 +79,7 @@ void add_common(CLI::App* command, IngestOptions& options) {
         ->required()
         ->type_name("RAW");
     command->add_option("-o,--out", options.out, "Folder to make")->required()->type_name("DIR");
-    command->add_option("--device", options.device, "OpenCL device: a number, gpu, cpu, or part of a name");
+    add_device_option(command, options.device);
     command->add_option("--threads", options.threads, "Threads that read and parse (default: all cores)")
         ->check(CLI::Range(0U, most_threads));
     command

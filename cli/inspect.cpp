@@ -67,7 +67,7 @@ void print_text(const ingest::Dataset& dataset, bool list_classes) {
         say("  split {:<14} {}\n", split.name, counted(dataset.split(split.name).size(), "clip"));
     if (list_classes)
         for (std::size_t c = 0; c < counts.size(); ++c)
-            say("  class {:>3}  {:<40} {}\n", c, header.classes[c], counted(counts[c], "clip"));
+            say("  class {:>3}  {:<40} {}\n", c + 1, header.classes[c], counted(counts[c], "clip"));
 }
 
 Json to_json(const ingest::Dataset& dataset) {
@@ -133,8 +133,8 @@ void print_motions(const Json& file) {
         counted(file["persons"].get<std::uint64_t>(), "person"), file["fps"].get<double>());
 }
 
-/// Tells which kind of checksums the datasets have.
-std::string verify(const std::vector<std::filesystem::path>& folders) {
+/// Whether some have checksums of their files' bytes.
+bool verify(const std::vector<std::filesystem::path>& folders) {
     bool of_bytes = false;
     for (const auto& folder : folders) {
         const auto [faults, checksums_of_bytes] = ingest::verify_dataset(folder);
@@ -144,8 +144,7 @@ std::string verify(const std::vector<std::filesystem::path>& folders) {
             throw Error("{}{}; ingest the raw data again", faults[0],
                         faults.size() > 1 ? fmt::format(" ({} more above)", faults.size() - 1) : "");
     }
-    return of_bytes ? "checksums are of the files' bytes (format 1: opening a shard for writing breaks them)"
-                    : "checksums are of contents";
+    return of_bytes;
 }
 
 }  // namespace
@@ -178,7 +177,7 @@ void add_inspect(CLI::App& app) {
             return;
         }
         const auto folders = ingest::datasets_at(options->dataset);
-        const auto verified = options->verify ? verify(folders) : std::string();
+        const bool of_bytes = options->verify && verify(folders);
         Json json = Json::array();
         for (const auto& folder : folders) {
             const ingest::Dataset dataset(folder);
@@ -187,9 +186,17 @@ void add_inspect(CLI::App& app) {
             else
                 print_text(dataset, options->classes);
         }
+        if (options->json && options->verify)
+            for (auto& one : json) {
+                one["verified"] = true;
+                one["checksums_of"] = of_bytes ? "bytes" : "contents";
+            }
         if (options->json) fmt::print("{}\n", (json.size() == 1 ? json[0] : json).dump(2));
         if (options->verify && !options->json)
-            say("verified: every checksum, offset and number is right; {}\n", verified);
+            say("verified: every checksum, offset and number is right; {}\n",
+                of_bytes
+                    ? "checksums are of the files' bytes (format 1: opening a shard for writing breaks them)"
+                    : "checksums are of contents");
     });
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/files/nearest_file.hpp"
+#include "cli/common_options.hpp"
 #include "eval/scoring/motions_file_source.hpp"
 #include "eval/scoring/windows_source.hpp"
 #include "ingest/dataset/dataset.hpp"
@@ -12,13 +13,20 @@ std::unique_ptr<eval::MotionSource> MotionOptions::open(kernels::Device& on,
                                                         const eval::FeatureExtractor& extractor) const {
     if (!std::filesystem::exists(input))
         throw Error("{}: no such file or folder{}", input.string(), did_you_mean(input));
-    if (!std::filesystem::is_directory(input)) return eval::open_motions(input, {frames, batch, {}});
+    if (!std::filesystem::is_directory(input)) {
+        refuse_given(*command, {"--split", "--window"},
+                     "is for datasets, and " + input.string() + " is a file");
+        return eval::open_motions(input, {frames, batch, {}});
+    }
+    refuse_given(*command, {"--frames"},
+                 "is for motions files; --window sets the frames of a dataset's windows");
     const auto dataset = ingest::one_dataset_at(input);
     const auto joints = extractor.joints_of(eval::describe(ingest::Dataset(dataset)));
     return eval::open_windows(on, {dataset, split, window, batch, joints});
 }
 
 void add_motion_options(CLI::App* command, MotionOptions& options) {
+    options.command = command;
     command->add_option("--recogniser", options.recogniser, "Folder of its training, or its weights")
         ->required()
         ->type_name("RUN|WEIGHTS.h5");
@@ -34,7 +42,7 @@ void add_motion_options(CLI::App* command, MotionOptions& options) {
     command->add_option("--batch", options.batch, "Sequences handed to the device together")
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();
-    command->add_option("--device", options.device, "OpenCL device: a number, gpu, cpu, or part of a name");
+    add_device_option(command, options.device);
 }
 
 }  // namespace actformer::cli

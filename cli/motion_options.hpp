@@ -14,9 +14,10 @@ struct MotionOptions {
     std::filesystem::path recogniser, input;
     std::uint32_t frames = 0, window = 60, batch = 64;
     std::string split = "all", device;
+    const CLI::App* command = nullptr;  ///< what it was given to
 
-    /// The input: a dataset's split in windows, or a file's motions. Throws Error where there is neither, and as
-    /// open_windows and open_motions do.
+    /// The input: a dataset's split in windows, or a file's motions. Throws Error where there is neither, for options of the other kind of
+    /// input, and as open_windows and open_motions do.
     std::unique_ptr<eval::MotionSource> open(kernels::Device& on,
                                              const eval::FeatureExtractor& extractor) const;
 };

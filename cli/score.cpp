@@ -17,6 +17,7 @@
 #include "base/files/temporary.hpp"
 #include "base/process/interruption.hpp"
 #include "base/random/shuffle.hpp"
+#include "cli/common_options.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
@@ -234,6 +235,23 @@ eval::Scored scored_by(const ScoreOptions& options, const eval::GenerateSets& ge
     return scored;
 }
 
+/// Options that change nothing in what is asked for.
+void refuse_without_effect(const CLI::App& command, const ScoreOptions& options) {
+    if (from_features(options))
+        refuse_given(command,
+                     {"--keep-features", "--window", "--frames", "--split", "--labels", "--initial-noise",
+                      "--repeats", "--per-class", "--generate-on"},
+                     "features are scored as they are");
+    else if (options.generate.generator.empty())
+        refuse_given(command, {"--repeats", "--per-class", "--generate-on"},
+                     "is for --generator; the motions of --generated are there");
+    else
+        refuse_given(command, {"--labels"}, "is for --generated; what --generator makes has labels");
+    if (!from_features(options) && options.motions.recogniser.empty())
+        refuse_given(command, {"--kid", "--fid-infinity", "--initial-noise"},
+                     "takes a --recogniser that sees all persons; --single-recogniser alone gives FIDa");
+}
+
 void run(const ScoreOptions& options, const eval::GenerateSets& generate) {
     if (options.samples > 0 && (!options.as_actor() || options.generate.generator.empty()))
         throw Error("--samples is for --protocol actor with --generator; --per-class is for the others");
@@ -296,7 +314,7 @@ void add_motion_options(CLI::App* command, ScoreOptions& options) {
     command->add_option("--batch", request.real.batch, "Sequences handed to the device together")
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();
-    command->add_option("--device", options.device, "OpenCL device: a number, gpu, cpu, or part of a name");
+    add_device_option(command, options.device);
 }
 
 }  // namespace
@@ -357,6 +375,7 @@ void add_score(CLI::App& app, const eval::GenerateSets& generate) {
     command->callback([options, generate, command] {
         options->repeats_given = command->count("--repeats") > 0;
         options->per_class_given = command->count("--per-class") > 0;
+        refuse_without_effect(*command, *options);
         run(*options, generate);
     });
 }

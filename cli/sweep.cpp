@@ -11,6 +11,7 @@
 #include "base/process/process.hpp"
 #include "base/threads/parallel.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
@@ -24,6 +25,7 @@ namespace actformer::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 using reports::JobState;
 
 struct SweepOptions {
@@ -71,6 +73,23 @@ void print_plan(const reports::Plan& plan, const SweepOptions& options, const Sw
     say("\n");
     if (dropped > 0)
         say("{} of them neither done nor in Slurm's queue; --slurm submits them again\n", dropped);
+}
+
+/// [{"id", "title", "state", "seconds": that it took, or may take, "why": it cannot be done, "commands"}]
+Json jobs_json(const reports::Plan& plan, const SweepOptions& options, const SweepJobs& jobs) {
+    const auto status = reports::statuses(plan, options.out);
+    Json out = Json::array();
+    for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
+        const auto& job = plan.jobs[i];
+        Json one{{"id", job.id}, {"title", job.title}, {"state", name_of(status[i].state)}};
+        const auto seconds =
+            status[i].state == JobState::done ? status[i].seconds : reports::estimate(plan, status, i);
+        if (seconds) one["seconds"] = *seconds;
+        if (!status[i].why.empty()) one["why"] = status[i].why;
+        one["commands"] = jobs.command_lines(job);
+        out.push_back(std::move(one));
+    }
+    return out;
 }
 
 /// Rows that failed, each with its reason once. The number of them.
@@ -158,17 +177,23 @@ void run(SweepOptions options) {
         const auto count = reports::submit_plan(
             sweep, plan, {options.out, jobs}, [&](const reports::Job& job) { return again(options, job); },
             options.sbatch, told_events(options.out).again);
-        say("{} submitted; follow them with actformer sweep {} -o {} --status\n", counted(count, "job"),
-            options.file.string(), options.out.string());
+        if (options.json)
+            fmt::print("{}\n", Json{{"submitted", count}}.dump(2));
+        else
+            say("{} submitted; follow them with actformer sweep {} -o {} --status\n", counted(count, "job"),
+                options.file.string(), options.out.string());
         return;
     }
     if (options.dry_run || options.status) {
         if (options.status && fs::exists(options.out)) reports::write_results(sweep, plan, options.out);
-        if (options.json)
-            fmt::print("{}\n", reports::results(sweep, plan, options.out).dump(2));
-        else
+        if (options.json) {
+            auto json = reports::results(sweep, plan, options.out);
+            json["jobs"] = jobs_json(plan, options, jobs);
+            fmt::print("{}\n", json.dump(2));
+        } else {
             print_plan(plan, options, jobs);
-        if (options.status && !options.json) print_rows(sweep, plan, options);
+            if (options.status) print_rows(sweep, plan, options);
+        }
         if (options.dry_run) refuse_what_cannot_be_done(plan, options.file);
         return;
     }
@@ -202,14 +227,19 @@ void add_sweep(CLI::App& app) {
         ->type_name("JOB");
     command->add_option("--program", options->program, "The actformer that does the jobs (default: this one)")
         ->type_name("PROGRAM");
-    command->add_flag("--json", options->json, "Print the results as JSON");
+    command->add_flag("--json", options->json,
+                      "Print the results as JSON; of --dry-run and --status with the jobs");
     examples(command,
              "  actformer sweep                                        which sweeps come with the program\n"
              "  actformer sweep mini -o mini --dry-run\n"
              "  actformer sweep mine.yaml -o mine --jobs 2\n"
              "  actformer sweep table3 -o tables --slurm --sbatch=--gres=gpu:1\n"
              "Interrupted, the same command goes on where it was. A row that fails stops no other.\n");
-    command->callback([options] { run(*options); });
+    command->callback([options, command] {
+        if (options->slurm) refuse_given(*command, {"--jobs"}, "Slurm decides how many run at once");
+        if (!options->only.empty()) refuse_given(*command, {"--json"}, "a single job prints no results");
+        run(*options);
+    });
 }
 
 }  // namespace actformer::cli

@@ -264,6 +264,8 @@ TEST_F(Score, OfGroupsAloneSeesTheCommonJointsOfAnySkeleton) {
         EXPECT_FALSE(of_own.contains(other)) << other;
     EXPECT_FALSE(of_own["per_class"][0]["fida"].is_null());
     EXPECT_TRUE(of_own["per_class"][0]["fid"].is_null());
+    EXPECT_TRUE(of_own["per_class"][0]["floor"].is_null()) << "that of the FID";
+    EXPECT_GT(of_own["per_class"][0]["fida_floor"], 0);
     motions("bare.h5", 2, 3, 2);
     expect_refused(single + real + " --generated " + at("bare.h5"),
                    {"bare.h5", "not known", "15 common joints"});
@@ -397,6 +399,22 @@ TEST_F(Score, KeepsTheRealSide) {
     const auto without = run_command("XDG_CACHE_HOME=" + at("no-folder") + " " + program() + " score " +
                                      arguments + " --json");
     EXPECT_EQ(nlohmann::json::parse(without.output), first) << "where there can be no cache";
+}
+
+TEST_F(Score, RefusesOptionsWithoutEffect) {
+    motions("m.h5", 4, 3);
+    features("r.h5", labels_of({3, 3, 3}));
+    const auto made = one_person() + "--generated " + at("m.h5");
+    for (const char* option : {"--repeats 3", "--per-class 5", "--generate-on cpu"})
+        expect_refused(made + " " + option,
+                       {option[2] == 'g' ? "--generate-on" : "--", "--generator", "leave it out"});
+    for (const char* option : {"--window 30", "--frames 9", "--split all", "--repeats 2"})
+        expect_refused("--real-features " + at("r.h5") + " --generated-features " + at("r.h5") + " " + option,
+                       {"features are scored as they are; leave it out"});
+    for (const char* option : {"--kid", "--fid-infinity"})
+        expect_refused("--single-recogniser " + at("one.h5") + " --real " + (datasets() / "ntu-2p").string() +
+                           " --generated " + at("m.h5") + " " + option,
+                       {option, "--recogniser that sees all persons"});
 }
 
 TEST_F(Score, TakesNoMeasuresOfOtherWindows) {

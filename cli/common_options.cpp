@@ -1,0 +1,17 @@
+#include "cli/common_options.hpp"
+
+#include "base/error.hpp"
+
+namespace actformer::cli {
+
+void add_device_option(CLI::App* command, std::string& device) {
+    command->add_option("--device", device, "OpenCL device: a number, gpu, cpu, or part of a name");
+}
+
+void refuse_given(const CLI::App& command, std::initializer_list<const char*> options,
+                  const std::string& why) {
+    for (const char* option : options)
+        if (command.count(option) > 0) throw Error("{}: {}; leave it out", option, why);
+}
+
+}  // namespace actformer::cli

@@ -1,0 +1,17 @@
+// Options that several commands have, and the refusal of those without effect.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <initializer_list>
+#include <string>
+
+namespace actformer::cli {
+
+/// --device: where OpenCL computes (kernels/device.hpp).
+void add_device_option(CLI::App* command, std::string& device);
+
+/// Throws Error where one of `options` was given: "--labels: WHY; leave it out".
+void refuse_given(const CLI::App& command, std::initializer_list<const char*> options,
+                  const std::string& why);
+
+}  // namespace actformer::cli
