@@ -163,11 +163,12 @@ void run(const BenchTrainOptions& options) {
     const auto count = rows_of(options, test.times(), {}).size();
     std::vector<double> peer;
     for (int turn = 0; turn < (command.empty() ? 1 : 2); ++turn) {
+        if (!command.empty()) {  // first, as it may have nothing to say
+            const auto now = ask_peer(command, request.threads, count);
+            if (peer.empty()) peer = now;
+            for (std::size_t i = 0; i < count; ++i) peer[i] = std::min(peer[i], now[i]);
+        }
         test.run(options.rounds);
-        if (command.empty()) break;
-        const auto now = ask_peer(command, request.threads, count);
-        if (peer.empty()) peer = now;
-        for (std::size_t i = 0; i < count; ++i) peer[i] = std::min(peer[i], now[i]);
     }
     const auto rows = rows_of(options, test.times(), peer);
     options.json ? print_json(test, rows) : print_text(test, rows);

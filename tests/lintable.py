@@ -1,6 +1,7 @@
-# What clang-tidy reads: of build/lint/compile_commands.json the rooms' sources, but no generated ones, no tests, and none that include libtorch,
-# whose 1.13 headers are not C++20 to clang 14. What is compiled together stays together, in pieces of its own below build/lint/pieces, with a
-# compile_commands.json for them all. Prints them, the longest first. Usage: lintable.py ROOT
+# Lists what clang-tidy reads: of BUILD/compile_commands.json the rooms' sources, but no generated ones, no tests, and none that include
+# libtorch, whose 1.13 headers are not C++20 to clang 14. Sources that are compiled together stay together, in pieces of their own below
+# build/lint/pieces, with a compile_commands.json for them all and without GCC's precompiled headers. The longest come first.
+# Usage: lintable.py ROOT BUILD
 import json
 import pathlib
 import re
@@ -43,13 +44,14 @@ def piece(number, sources):
 
 
 pieces = root / "build/lint/pieces"
-pieces.mkdir(exist_ok=True)
+pieces.mkdir(parents=True, exist_ok=True)
 commands, sizes = [], {}
-for number, entry in enumerate(json.loads((root / "build/lint/compile_commands.json").read_text())):
+for number, entry in enumerate(json.loads((root / sys.argv[2] / "compile_commands.json").read_text())):
     sources = [source for source in compiled(entry) if of_a_room(source) and not includes_torch(source)]
     if sources and sources[0] not in sizes:
         path = piece(number, sources)
-        commands.append({**entry, "command": entry["command"].replace(entry["file"], str(path)), "file": str(path)})
+        command = re.sub(r"-Winvalid-pch|-include \S+/cmake_pch\.hxx", "", entry["command"])
+        commands.append({**entry, "command": command.replace(entry["file"], str(path)), "file": str(path)})
         sizes[path] = len(sources)
 (pieces / "compile_commands.json").write_text(json.dumps(commands))
 for path in sorted(sizes, key=sizes.get, reverse=True):

@@ -29,7 +29,7 @@ class PlainRecogniser {
             for (std::size_t t = 0; t < frames; ++t)
                 for (std::size_t k = 0; k < joints; ++k)
                     x[(c * frames + t) * joints + k] =
-                        norm("data_bn.", k * channels + c, motion[(c * frames + t) * joints + k]);
+                        norm("data_bn.", k * channels + c)(motion[(c * frames + t) * joints + k]);
         for (std::size_t i = 0; i < eval::stgcn_layers; ++i) x = layer(i, x, frames);
         PlainResult out;
         const std::size_t features = w_.features(), all = x.size() / features;
@@ -48,10 +48,14 @@ class PlainRecogniser {
     }
 
   private:
-    double norm(const std::string& name, std::size_t c, double x) const {
-        return (x - w_.at(name + "running_mean")[c]) / std::sqrt(w_.at(name + "running_var")[c] + 1e-5) *
-                   w_.at(name + "weight")[c] +
-               w_.at(name + "bias")[c];
+    /// A batch norm of one channel.
+    struct Norm {
+        double mean, deviation, weight, bias;
+        double operator()(double x) const { return (x - mean) / deviation * weight + bias; }
+    };
+    Norm norm(const std::string& name, std::size_t c) const {
+        return {w_.at(name + "running_mean")[c], std::sqrt(w_.at(name + "running_var")[c] + 1e-5),
+                w_.at(name + "weight")[c], w_.at(name + "bias")[c]};
     }
 
     /// (in, frames, K) to (out, frames after the stride, K); changes `frames`.
@@ -79,47 +83,62 @@ class PlainRecogniser {
                             y[o * plane + t * joints + w] += a * z[t * joints + v];
                     }
             }
-        for (std::size_t o = 0; o < out; ++o)
+        for (std::size_t o = 0; o < out; ++o) {
+            const auto normed = norm(prefix + "tcn.0.", o);
             for (std::size_t j = 0; j < plane; ++j)
-                y[o * plane + j] = std::max(0.0, norm(prefix + "tcn.0.", o, y[o * plane + j]));
+                y[o * plane + j] = std::max(0.0, normed(y[o * plane + j]));
+        }
 
         std::vector<double> result(out * after * joints);
-        for (std::size_t o = 0; o < out; ++o)
-            for (std::size_t t = 0; t < after; ++t)
-                for (std::size_t k = 0; k < joints; ++k) {
-                    const double value =
-                        norm(prefix + "tcn.3.", o, convolved(i, y, frames, o, t * stride, k));
-                    result[(o * after + t) * joints + k] =
-                        std::max(0.0, value + residual(i, x, frames, o, t * stride, k));
-                }
+        for (std::size_t o = 0; o < out; ++o) {
+            const auto sums = convolved(i, y, frames, o, stride), skip = residual(i, x, frames, o, stride);
+            const auto normed = norm(prefix + "tcn.3.", o);
+            for (std::size_t j = 0; j < after * joints; ++j)
+                result[o * after * joints + j] = std::max(0.0, normed(sums[j]) + skip[j]);
+        }
         frames = after;
         return result;
     }
 
-    double convolved(std::size_t i, const std::vector<double>& y, std::size_t frames, std::size_t o,
-                     std::size_t t, std::size_t k) const {
+    /// Nine frames about every `stride`-th one, for channel `o`: (frames after the stride, K).
+    std::vector<double> convolved(std::size_t i, const std::vector<double>& y, std::size_t frames,
+                                  std::size_t o, std::size_t stride) const {
         const auto prefix = eval::layer_prefix(i);
         const auto& weight = w_.at(prefix + "tcn.2.weight");
-        const std::size_t out = w_.widths[i], joints = w_.joints();
-        double sum = w_.at(prefix + "tcn.2.bias")[o];
-        for (std::size_t r = 0; r < 9; ++r) {
-            if (t + r < 4 || t + r - 4 >= frames) continue;
-            for (std::size_t c = 0; c < out; ++c)
-                sum += weight[(o * out + c) * 9 + r] * y[(c * frames + t + r - 4) * joints + k];
-        }
-        return sum;
+        const std::size_t out = w_.widths[i], joints = w_.joints(), after = (frames - 1) / stride + 1;
+        std::vector<double> sums(after * joints, w_.at(prefix + "tcn.2.bias")[o]);
+        for (std::size_t c = 0; c < out; ++c)
+            for (std::size_t r = 0; r < 9; ++r) {
+                const double w = weight[(o * out + c) * 9 + r];
+                for (std::size_t t = 0; t < after; ++t) {
+                    const auto at = t * stride + r;  // 4 frames before the first are zeros
+                    if (at < 4 || at - 4 >= frames) continue;
+                    const double* from = &y[(c * frames + at - 4) * joints];
+                    for (std::size_t k = 0; k < joints; ++k) sums[t * joints + k] += w * from[k];
+                }
+            }
+        return sums;
     }
 
-    double residual(std::size_t i, const std::vector<double>& x, std::size_t frames, std::size_t o,
-                    std::size_t t, std::size_t k) const {
-        const std::size_t in = eval::stgcn_layer(w_, i).in, joints = w_.joints();
-        if (i == 0) return 0;
-        if (!w_.tensors.contains(eval::layer_prefix(i) + "residual.0.weight"))
-            return x[(o * frames + t) * joints + k];
-        const auto& weight = w_.at(eval::layer_prefix(i) + "residual.0.weight");
-        double sum = w_.at(eval::layer_prefix(i) + "residual.0.bias")[o];
-        for (std::size_t c = 0; c < in; ++c) sum += weight[o * in + c] * x[(c * frames + t) * joints + k];
-        return norm(eval::layer_prefix(i) + "residual.1.", o, sum);
+    /// Channel `o` of the shortcut: nothing in the first layer, a convolution where the weights have one, else the input.
+    std::vector<double> residual(std::size_t i, const std::vector<double>& x, std::size_t frames,
+                                 std::size_t o, std::size_t stride) const {
+        const auto name = eval::layer_prefix(i) + "residual.";
+        const std::size_t in = eval::stgcn_layer(w_, i).in, joints = w_.joints(),
+                          after = (frames - 1) / stride + 1;
+        std::vector<double> out(after * joints, 0.0);
+        if (i == 0) return out;
+        const bool mapped = w_.tensors.contains(name + "0.weight");
+        for (std::size_t c = mapped ? 0 : o; c < (mapped ? in : o + 1); ++c) {
+            const double w = mapped ? w_.at(name + "0.weight")[o * in + c] : 1.0;
+            for (std::size_t t = 0; t < after; ++t)
+                for (std::size_t k = 0; k < joints; ++k)
+                    out[t * joints + k] += w * x[(c * frames + t * stride) * joints + k];
+        }
+        if (!mapped) return out;
+        const auto normed = norm(name + "1.", o);
+        for (auto& value : out) value = normed(value + w_.at(name + "0.bias")[o]);
+        return out;
     }
 
     const eval::StgcnWeights& w_;
