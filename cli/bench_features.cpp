@@ -258,7 +258,7 @@ void add_bench_features(CLI::App& bench) {
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer bench features\n"
-             "  actformer bench features --tune --peers ../shared/reference --node-modules "
+             "  actformer bench features --tune --peers FOLDER --node-modules "
              "/tmp/ort/node_modules\n");
     command->callback([options] { run(*options); });
 }

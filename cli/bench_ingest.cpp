@@ -35,7 +35,7 @@ struct BenchIngestOptions {
     std::string format = "ntu";
     double gigabytes = 1, hours = 0.5, many_hours = 0;
     std::uint64_t clips = 4000, many = 0;
-    std::string sample = "../shared/data/ntu_sample", peer;
+    std::string sample, peer;
     std::string python = "/usr/bin/python3", folder, device;
     int repeats = 3;
     unsigned threads = 0;
@@ -55,10 +55,10 @@ std::string copy_name(std::uint64_t i) {
                        i / 49 / 3 % 900, 1 + i % 49);
 }
 
-/// Half of the clips are copies of the real sample where it is at hand, the others synthetic; all of one person.
+/// Half of the clips are copies of the real sample where one is given, the others synthetic; all of one person.
 void make_raw(const BenchIngestOptions& options, const fs::path& raw) {
     std::optional<fs::path> real;
-    if (fs::is_directory(options.sample))
+    if (!options.sample.empty())
         for (const auto& entry : fs::directory_iterator(options.sample))
             if (entry.path().extension() == ".skeleton") real = entry.path();
     const auto copies = real ? options.clips / 2 : 0;
@@ -71,7 +71,7 @@ void make_raw(const BenchIngestOptions& options, const fs::path& raw) {
     ingest::synth::synthesise_ntu(synth);
     if (!options.json)
         say("{} copies of {}, {} synthetic clips\n", grouped(copies),
-            real ? real->filename().string() : "a real clip (none at hand)", grouped(options.clips - copies));
+            real ? real->filename().string() : "a real clip (none given)", grouped(options.clips - copies));
 }
 
 ingest::IngestSummary run_ours(const BenchIngestOptions& options, const fs::path& raw, const fs::path& out,
@@ -104,9 +104,8 @@ Measured best_of_ours(const BenchIngestOptions& options, const Scratch& scratch,
 
 /// Clips a second of the reference program, by its own clock, which leaves out Python's start.
 std::optional<double> run_peer(const BenchIngestOptions& options, const Scratch& scratch) {
-    const std::string peer = options.peer.empty() ? "../shared/reference/preprocess.py" : options.peer;
-    if (!fs::exists(peer)) return {};
-    const std::vector<std::string> command{options.python, peer, (scratch.path() / "raw").string(),
+    if (options.peer.empty()) return {};
+    const std::vector<std::string> command{options.python, options.peer, (scratch.path() / "raw").string(),
                                            (scratch.path() / "peer.h5").string()};
     const auto said = output_of(command);
     double clips = 0, seconds = 0;
@@ -264,9 +263,12 @@ void add_bench_ingest(CLI::App& bench) {
         ->capture_default_str();
     command->add_option("--many", options->many, "Also ingest so many linked clips, to watch the memory");
     command->add_option("--sample", options->sample, "Folder with a real .skeleton file")
-        ->capture_default_str();
-    command->add_option("--peer", options->peer,
-                        "The reference program (default: NTU's, or tests/bench/babel_numpy.py for babel)");
+        ->check(CLI::ExistingDirectory);
+    command
+        ->add_option("--peer", options->peer,
+                     "A reference program that prints its clips and seconds (default for babel: "
+                     "tests/bench/babel_numpy.py)")
+        ->check(CLI::ExistingFile);
     command->add_option("--python", options->python, "Python for the reference program")
         ->capture_default_str();
     command->add_option("--folder", options->folder,
@@ -279,7 +281,8 @@ void add_bench_ingest(CLI::App& bench) {
         ->check(CLI::Range(0U, most_threads));
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
-             "  actformer bench ingest\n  actformer bench ingest --many 100000\n"
+             "  actformer bench ingest\n"
+             "  actformer bench ingest --many 100000 --sample FOLDER --peer preprocess.py\n"
              "  actformer bench ingest --format motions --gigabytes 4\n"
              "  actformer bench ingest --format babel --many-hours 40\n");
     command->callback([options] { run(*options); });

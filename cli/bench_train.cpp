@@ -206,11 +206,12 @@ void add_bench_train(CLI::App& bench) {
         ->type_name("KEY=VALUE")
         ->needs("--method");
     command->add_flag("--json", options->json, "Print JSON");
-    examples(command,
-             "  actformer bench train\n"
-             "  actformer bench train --peers ../shared/reference --threads 2\n"
-             "  actformer bench train --method actor --persons 1 --classes 94 --batch 20 dropout=0 --peers "
-             "../shared/reference --peer tests/bench/actor_speed.py\n");
+    examples(
+        command,
+        "  actformer bench train\n"
+        "  actformer bench train --peers FOLDER --threads 2\n"
+        "  actformer bench train --method actor --persons 1 --classes 94 --batch 20 dropout=0 --peers FOLDER "
+        "--peer tests/bench/actor_speed.py\n");
     command->callback([options] { run(*options); });
 }
 

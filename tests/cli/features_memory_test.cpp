@@ -21,8 +21,9 @@ namespace {
 
 constexpr std::uint32_t motions = 400, frames = 60;
 
-// All motions at once take some 2.1 GB on the device and half of them 1.05; the program alone takes up to 0.4 of these 1.9.
-const std::string limited = "ulimit -v 1900000; ";
+// All motions at once take some 2.1 GB on the device and half of them 1.05; the program alone takes up to 0.4 of these 1.9, with two threads of
+// PoCL's however many cores there are.
+const std::string limited = "ulimit -v 1900000; export POCL_MAX_PTHREAD_COUNT=2 MALLOC_ARENA_MAX=2; ";
 
 /// Motions of few channels (padded to 64 a layer), and tiles that send all of them through the network together.
 struct Memory : testing::Test {

@@ -129,7 +129,7 @@ TEST_F(ReportPage, IsWrittenAnewUntilTheSweepIsDone) {
     // The first page is there before the sweep ends.
     const auto result = run_command(
         "cd " + at("") + "; " + program() +
-        " report out -o r.html --watch 1 & until [ -e r.html ]; do sleep 0.1; done; cp r.html first.html; "
+        " report out -o r.html --watch 1 & until [ -e r.html ] || ! kill -0 $!; do sleep 0.1; done; cp r.html first.html; "
         "mv done.json out/results.json; wait $!");
     ASSERT_EQ(result.exit, 0) << result.output;
     EXPECT_NE(result.output.find("8 figures measured"), std::string::npos) << result.output;

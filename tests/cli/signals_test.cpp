@@ -60,6 +60,16 @@ TEST_F(Signals, EndACommandInOrder) {
     }
 }
 
+TEST_F(Signals, WhatTheCallerIgnoresStaysIgnored) {
+    Child child(bench("it's slow.sh"), (dir / "output").string(), environment() + " nohup");
+    wait_until([&] { return entries(dir / "temporary") == 1; });
+    ::kill(child.pid(), SIGHUP);
+    ::kill(child.pid(), SIGTERM);
+    EXPECT_EQ(child.wait(), 128 + SIGTERM);
+    EXPECT_NE(output().find("stopped by SIGTERM"), std::string::npos) << output();
+    EXPECT_EQ(output().find("SIGHUP"), std::string::npos) << output();
+}
+
 TEST_F(Signals, WhatAKilledCommandLeavesIsRemovedByTheNext) {
     {
         const Child child(bench("it's slow.sh"), (dir / "output").string(), environment());
@@ -108,4 +118,21 @@ TEST_F(SweepSignals, GoToTheJobsAndMarkNoneOfThemFailed) {
     fs::remove(dir / "pause");
     const auto again = sweep();
     EXPECT_EQ(again.exit, 0) << again.output;
+}
+
+TEST_F(SweepSignals, ASecondInterruptionStopsAtOnce) {
+    sweep_file("  a row: {}\n");
+    // A job that no signal ends: the sweep waits for it after the first.
+    write_file(dir / "actformer",
+               "#!/bin/sh\ntrap '' INT TERM\nhere=$(dirname \"$0\")\necho began >> \"$here/calls\"\n"
+               "while [ ! -e \"$here/stop\" ]; do sleep 0.1; done\n");
+    Child child("sweep " + at("sweep.yaml") + " -o " + at("out") + " --program " + at("actformer"),
+                at("said"));
+    wait_until([&] { return fs::exists(dir / "calls"); });
+    ::kill(child.pid(), SIGINT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    EXPECT_EQ(::waitpid(child.pid(), nullptr, WNOHANG), 0) << "it waits for its job";
+    ::kill(child.pid(), SIGINT);
+    EXPECT_EQ(child.wait(), 128 + SIGINT);
+    write_file(dir / "stop", "");
 }
