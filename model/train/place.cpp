@@ -48,6 +48,14 @@ std::string first_host(const std::string& list) {
     return host;
 }
 
+/// The process's number on its machine: the launcher's, else srun's where it placed the process (PMI has none). Variables of srun in a batch
+/// script are of the script itself: its number is not the process's.
+std::optional<int> local_of(const Variables& variables, const Launcher& launcher, int rank, int most) {
+    if (const auto local = number(variables, launcher.local, most)) return local;
+    if (number(variables, "SLURM_PROCID", most) != rank) return std::nullopt;
+    return number(variables, "SLURM_LOCALID", most);
+}
+
 std::string address_of(const Variables& variables, const Launcher& launcher, int size) {
     if (const auto given = variables("MASTER_ADDR")) return *given;
     const auto here = number(variables, launcher.local_size, 1 << 20);
@@ -75,7 +83,7 @@ Place place_of(const Variables& variables) {
     Place place;
     place.rank = *number(variables, launcher.rank, most);
     place.size = *number(variables, launcher.size, most);
-    place.local = number(variables, launcher.local, most).value_or(place.rank);
+    place.local = local_of(variables, launcher, place.rank, most).value_or(place.rank);
     if (place.rank >= place.size)
         throw Error("{}={}, but {}={}: ranks run from 0 below the number of processes", launcher.rank,
                     place.rank, launcher.size, place.size);

@@ -90,6 +90,20 @@ TEST(Place, OfSrun) {
     EXPECT_EQ(place(set).address, "127.0.0.1");
 }
 
+TEST(Place, OfSrunThatSpeaksPmi) {
+    Set set{{"PMI_RANK", "9"},      {"PMI_SIZE", "16"},
+            {"SLURM_PROCID", "9"},  {"SLURM_NTASKS", "16"},
+            {"SLURM_LOCALID", "1"}, {"SLURM_NNODES", "4"},
+            {"SLURM_JOB_ID", "7"},  {"SLURM_STEP_NODELIST", "gpu[07-10]"}};
+    EXPECT_EQ(place(set).rank, 9);
+    EXPECT_EQ(place(set).local, 1) << "the second GPU of its machine";
+    EXPECT_EQ(place(set).address, "gpu07");
+    set["SLURM_PROCID"] = "0";  // of a batch script whose processes another launcher started
+    EXPECT_EQ(place(set).local, 9);
+    set["MPI_LOCALRANKID"] = "3";
+    EXPECT_EQ(place(set).local, 3);
+}
+
 TEST(Place, OfNobodyOrNonsense) {
     EXPECT_NE(complaint({}).find("torchrun"), std::string::npos);
     EXPECT_NE(complaint({{"RANK", "0"}}).find("torchrun"), std::string::npos);
