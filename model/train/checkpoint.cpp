@@ -20,21 +20,44 @@ constexpr std::string_view prefix = "checkpoint-", extension = ".h5";
 constexpr const char *progress = "progress", *steps_done = "step";
 constexpr std::string_view before_hdf5 = "actformer checkpoint ";  // how files of earlier versions begin
 
-/// Finished checkpoints, those of earlier versions too, the newest first.
+/// A file's step, by its name; none where it is no finished checkpoint, of this version or an earlier one.
+std::optional<std::uint64_t> step_of(std::string name) {
+    if (!name.starts_with(prefix)) return std::nullopt;
+    if (name.ends_with(extension)) name.resize(name.size() - extension.size());
+    std::uint64_t step = 0;
+    const auto* end = name.data() + name.size();
+    if (std::from_chars(name.data() + prefix.size(), end, step).ptr != end) return std::nullopt;
+    return step;
+}
+
+/// Finished checkpoints, the newest first.
 std::vector<fs::path> checkpoints_in(const fs::path& folder) {
-    std::map<std::uint64_t, fs::path> by_step;
-    if (!fs::is_directory(folder)) return {};
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        auto name = entry.path().filename().string();
-        if (!name.starts_with(prefix)) continue;
-        if (name.ends_with(extension)) name.resize(name.size() - extension.size());
-        std::uint64_t step = 0;
-        const auto* end = name.data() + name.size();
-        if (std::from_chars(name.data() + prefix.size(), end, step).ptr == end) by_step[step] = entry.path();
+    std::map<std::uint64_t, fs::path, std::greater<>> by_step;
+    try {
+        if (!fs::is_directory(folder)) return {};
+        for (const auto& entry : fs::directory_iterator(folder))
+            if (const auto step = step_of(entry.path().filename().string())) by_step[*step] = entry.path();
+    } catch (const fs::filesystem_error& e) {
+        throw Error("{}: cannot be listed: {}", folder.string(), e.code().message());
     }
     std::vector<fs::path> files;
-    for (auto& [step, path] : by_step) files.insert(files.begin(), std::move(path));
+    for (auto& [step, path] : by_step) files.push_back(std::move(path));
     return files;
+}
+
+/// Behind a new one: all but it and the one before. What cannot be removed stays.
+void remove_older_checkpoints(const fs::path& folder) {
+    const auto files = checkpoints_in(folder);
+    std::error_code ignored;
+    for (std::size_t i = 2; i < files.size(); ++i) fs::remove(files[i], ignored);
+}
+
+/// As NAME.damaged.
+void set_aside(const fs::path& damaged) {
+    std::error_code error;
+    fs::rename(damaged, damaged.string() + ".damaged", error);
+    if (error)
+        throw Error("{}: damaged, and cannot be renamed: {}; remove it", damaged.string(), error.message());
 }
 
 std::string read_whole(const fs::path& path) {
@@ -69,8 +92,7 @@ void save_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
     file.attribute(steps_done, static_cast<std::int64_t>(checkpoint.step));
     file.attribute("program", std::string("actformer " ACTFORMER_VERSION));
     write_whole(checkpoint_path(folder, checkpoint.step), file.checked_image());
-    const auto files = checkpoints_in(folder);
-    for (std::size_t i = 2; i < files.size(); ++i) fs::remove(files[i]);
+    remove_older_checkpoints(folder);
 }
 
 std::optional<Checkpoint> read_checkpoint(const fs::path& path) {
@@ -114,7 +136,7 @@ std::optional<Checkpoint> newest_checkpoint(const fs::path& folder, const std::s
         }
         note(fmt::format("{}: cut short or damaged; {}", files[i].string(),
                          i + 1 < files.size() ? "going back to the one before" : "starting anew"));
-        fs::rename(files[i], files[i].string() + ".damaged");
+        set_aside(files[i]);
     }
     if (!earlier.empty())
         throw Error(

@@ -23,7 +23,7 @@ struct Checkpoint {
 
 std::filesystem::path checkpoint_path(const std::filesystem::path& folder, std::uint64_t step);
 
-/// Writes checkpoint_path() and removes all but it and the one before. Throws Error where it cannot be written.
+/// Writes checkpoint_path() and removes all but it and the one before; what cannot be removed stays. Throws Error where it cannot be written.
 void save_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
 /// None where the file is cut short, damaged, or of another kind.

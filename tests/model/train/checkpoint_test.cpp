@@ -93,6 +93,21 @@ TEST(Checkpoint, TheOneBeforeIsKeptAndUsed) {
     EXPECT_NE(notes[1].find("starting anew"), std::string::npos);
 }
 
+TEST(Checkpoint, WhatCannotBeRemovedStays) {
+    const TempDir dir;
+    write_file(dir / "checkpoint-00001.h5/file", "a folder that is not empty");
+    for (const std::uint64_t step : {2, 3, 4}) EXPECT_NO_THROW(save_checkpoint(dir.path(), sample(step)));
+    EXPECT_TRUE(std::filesystem::exists(dir / "checkpoint-00001.h5/file"));
+    EXPECT_FALSE(std::filesystem::exists(dir / "checkpoint-00002.h5"));
+}
+
+TEST(Checkpoint, DamagedOnesThatCannotBeSetAsideAreRefused) {
+    const TempDir dir;
+    write_file(dir / "checkpoint-00003.h5", "PK not one of ours");
+    write_file(dir / "checkpoint-00003.h5.damaged/file", "a folder that is not empty");
+    EXPECT_THROW(newest_checkpoint(dir.path(), "toy", [](const std::string&) {}), actformer::Error);
+}
+
 TEST(Checkpoint, DamagedOnesAreSetAsideAndForeignOnesRefused) {
     TempDir dir;
     write_file(dir / "checkpoint-00003.h5", "PK not one of ours");
