@@ -91,7 +91,7 @@ void conditional_statistics(const ConditionalNormShape& shape, const T* x, T* me
         }
         const double middle = sum / count;
         mean[c] = static_cast<T>(middle);
-        variance[c] = static_cast<T>(std::max(0.0, squares / count - middle * middle));
+        variance[c] = static_cast<T>(std::max(squares / count - middle * middle, 0.0));  // NaN stays
     }
 }
 

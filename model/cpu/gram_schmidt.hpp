@@ -42,7 +42,7 @@ struct Directions {
         const Lanes<T> least = Lanes<T>{} + static_cast<T>(shortest), one = Lanes<T>{} + 1, none = {};
         const auto length = root(dot(v, v));
         pulled = length > least ? one : none;
-        over = 1 / (length > least ? length : least);
+        over = 1 / (length < least ? least : length);  // NaN stays
         for (std::int64_t d = 0; d < axes; ++d) unit[d] = v[d] * over;
     }
 

@@ -67,7 +67,7 @@ void finish_rows(const T* x, std::int64_t rows, std::int64_t channels, const T* 
             T v = (from[c] - mean[c]) * scale[c] + bias[c];
             if constexpr (drop) v = mask.keeps(static_cast<std::uint32_t>(first + c)) ? v * gain : T(0);
             if constexpr (add) v += shortcut[first + c];
-            if constexpr (relu) v = v > 0 ? v : T(0);
+            if constexpr (relu) v = v < 0 ? T(0) : v;  // NaN stays
             to[c] = v;
         }
     }
@@ -81,7 +81,7 @@ inline void arriving(const T* grad, const T* y, std::int64_t first, std::int64_t
 #pragma omp simd
     for (std::int64_t c = 0; c < channels; ++c) {
         T g = from[c];
-        if constexpr (relu) g = out[c] > 0 ? g : T(0);
+        if constexpr (relu) g = out[c] <= 0 ? T(0) : g;
         if constexpr (drop) g = mask.keeps(static_cast<std::uint32_t>(first + c)) ? g * gain : T(0);
         to[c] = g;
     }
@@ -174,8 +174,8 @@ void statistics(const T* x, std::int64_t rows, std::int64_t channels, T* mean, T
     for (std::int64_t c = 0; c < channels; ++c) {
         const double shift = sums[static_cast<std::size_t>(c)] / count;
         mean[c] = static_cast<T>(static_cast<double>(origin[c]) + shift);
-        variance[c] = static_cast<T>(
-            std::max(0.0, sums[static_cast<std::size_t>(channels + c)] / count - shift * shift));
+        const double square = sums[static_cast<std::size_t>(channels + c)] / count - shift * shift;
+        variance[c] = static_cast<T>(std::max(square, 0.0));  // in this order NaN stays
     }
 }
 

@@ -13,12 +13,14 @@ using Floats = Lanes<float>;
 using Doubles = Lanes<double>;
 typedef std::int32_t Bits __attribute__((vector_size(vector_bytes)));
 
-inline Floats smaller(Floats a, Floats b) {
-    return a < b ? a : b;
+/// min(x, bound); NaN where x is.
+inline Floats smaller(Floats x, Floats bound) {
+    return bound < x ? bound : x;
 }
 
-inline Floats larger(Floats a, Floats b) {
-    return a > b ? a : b;
+/// max(x, bound); NaN where x is.
+inline Floats larger(Floats x, Floats bound) {
+    return bound > x ? bound : x;
 }
 
 inline Floats magnitude(Floats x) {
@@ -35,7 +37,7 @@ inline Floats reciprocal(Floats x) {
 #endif
 }
 
-/// e^x for x up to 88; next to nothing below -87.
+/// e^x for x up to 88; next to nothing below -87; NaN where x is.
 inline Floats exponential(Floats x) {
     x = smaller(larger(x, Floats{} - 87.0F), Floats{} + 88.0F);
     constexpr float shift =

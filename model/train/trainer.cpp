@@ -60,6 +60,7 @@ class Loop {
     void save_best();
     void save();
     void save_if_sound();
+    void check_weights() const;
     std::string what_is_kept() const;
     [[noreturn]] void stop();
     void finish();
@@ -313,11 +314,19 @@ void Loop::save() {
     kept_step_ = step_;
 }
 
-/// Saves, unless losses or weights are unsound.
+/// Saves, unless losses are unsound. Weights that are not finite end the training, as such losses do.
 void Loop::save_if_sound() {
     kept_ = Clock::now();
     log_later_validation();
-    if (watch_.sound() && learner_.finite()) try_writing([this] { save(); });
+    check_weights();
+    if (watch_.sound()) try_writing([this] { save(); });
+}
+
+/// Throws Error where weights are not finite: no step makes them so again.
+void Loop::check_weights() const {
+    if (!learner_.finite())
+        throw Error("{}: stopped at step {}, as weights are NaN or infinite; {}", folder_->path().string(),
+                    step_, what_is_kept());
 }
 
 /// How a message about a training beyond hope ends.
@@ -338,9 +347,7 @@ void Loop::stop() {
 /// The last of it must be kept.
 void Loop::finish() {
     log_later_validation();
-    if (!learner_.finite())
-        throw Error("{}: weights of step {} are NaN or infinite; {}", folder_->path().string(), step_,
-                    what_is_kept());
+    check_weights();
     save();
 }
 

@@ -38,7 +38,7 @@ struct TrainingTask {
 /// Of several processes rank 0 alone writes, scores and tells.
 ///
 /// Throws Error where another training holds the folder, or one of other settings or data is in it; and where losses
-/// are NaN or infinite, or the learner is in trouble for long, the last checkpoint before that being kept.
+/// or weights are NaN or infinite, or the learner is in trouble for long, the last checkpoint before that being kept.
 TrainingResult train(const TrainingTask& task, Learner& learner, const LearnerSetup& setup,
                      Validator* validator, const std::filesystem::path& run, const TrainingEvents& events);
 

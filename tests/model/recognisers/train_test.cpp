@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -151,6 +152,23 @@ TEST_F(TrainRecogniser, GoesBackBehindATruncatedCheckpoint) {
               std::string::npos);
     EXPECT_NE(again.output.find("going on after step 8, in epoch 3 of 3"), std::string::npos) << again.output;
     EXPECT_EQ(read_file(dir / "run/weights-last.h5"), weights);
+}
+
+TEST_F(TrainRecogniser, StopsWhereWeightsAreNotFinite) {
+    // Running statistics reach no loss of a training.
+    for (const auto& [weight, why] :
+         {std::pair{"st_gcn_networks.0.tcn.2.weight", "stopped at step 4, as losses are NaN or infinite"},
+          std::pair{"data_bn.running_var", "stopped at step 4, as weights are NaN or infinite"}}) {
+        ASSERT_EQ(train("run", "epochs=1").exit, 0);
+        auto checkpoint =
+            *actformer::model::newest_checkpoint(dir / "run", "recogniser", [](const std::string&) {});
+        const auto array = std::ranges::find(checkpoint.arrays, weight, &actformer::model::Array::name);
+        std::get<std::vector<float>>(array->values)[0] = std::nanf("");
+        actformer::model::save_checkpoint(dir / "run", checkpoint);
+        expect_refused(train("run"), {why, "the checkpoint of step 3 is kept"});
+        EXPECT_EQ(newest(dir / "run"), "checkpoint-00003.h5");
+        fs::remove_all(dir / "run");
+    }
 }
 
 TEST_F(TrainRecogniser, KeepsARunToItsSettingsAndToOneTraining) {
