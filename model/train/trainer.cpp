@@ -80,8 +80,9 @@ class Loop {
     std::vector<double> sums_;     ///< of the running epoch, when last read
     std::uint64_t sums_step_ = 0;  ///< at which they were
     Clock::time_point epoch_start_, kept_;
-    std::uint64_t timed_from_ = 0, kept_step_ = 0;
-    double epoch_seconds_ = 0;  ///< spent on the running epoch by earlier calls
+    std::uint64_t timed_from_ = 0;
+    std::optional<std::uint64_t> kept_step_;  ///< of the newest checkpoint; none before there is one
+    double epoch_seconds_ = 0;                ///< spent on the running epoch by earlier calls
     std::optional<ValidationReport> best_, last_;
     std::optional<std::vector<Array>>
         unsaved_best_;  ///< weights that could not be written when they were the best
@@ -105,7 +106,7 @@ Loop::Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup
         resume();
     }
     share();
-    sums_step_ = timed_from_ = kept_step_ = step_;
+    sums_step_ = timed_from_ = step_;
     sums_ = read_sums();
     kept_ = epoch_start_ = Clock::now();
 }
@@ -143,7 +144,7 @@ void Loop::resume() {
     if (found) {
         const auto& state = found->state;
         compare_data(state);
-        step_ = found->step;
+        kept_step_ = step_ = found->step;
         learner_.load(found->arrays, step_,
                       fmt::format("{}: checkpoint of step {}", folder_->path().string(), step_));
         const auto sums = state.at("sums").get<std::vector<double>>();
@@ -331,17 +332,22 @@ void Loop::check_weights() const {
 
 /// How a message about a training beyond hope ends.
 std::string Loop::what_is_kept() const {
-    return fmt::format("the checkpoint of step {} is kept, and lower learning rates in a new -o may help",
-                       kept_step_);
+    const auto checkpoint = kept_step_ ? fmt::format("the checkpoint of step {} is kept", *kept_step_)
+                                       : std::string("no checkpoint has been written yet");
+    return checkpoint + ", and lower learning rates in a new -o may help";
 }
 
 /// A signal has asked for it: keeps the running step, if that can be.
 void Loop::stop() {
     if (sums_step_ != step_) read_losses();
     save_if_sound();
+    const auto folder = folder_->path().string();
+    if (!kept_step_)
+        safe_points_.stop(
+            fmt::format("{}: no checkpoint has been written yet; the same command starts anew", folder));
     safe_points_.stop(
         fmt::format("{}: the checkpoint of step {} of {} is kept; the same command goes on from there",
-                    folder_->path().string(), kept_step_, settings_.epochs * steps_an_epoch_));
+                    folder, *kept_step_, settings_.epochs * steps_an_epoch_));
 }
 
 /// The last of it must be kept.

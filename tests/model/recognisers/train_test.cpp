@@ -171,6 +171,12 @@ TEST_F(TrainRecogniser, StopsWhereWeightsAreNotFinite) {
     }
 }
 
+TEST_F(TrainRecogniser, NamesNoCheckpointWhereNoneIsWritten) {
+    const auto result = train("run", "rate=100 epochs=1000 batch=2 checkpoint_minutes=1000");
+    expect_refused(result, {"losses are NaN or infinite", "no checkpoint has been written yet"});
+    EXPECT_EQ(newest(dir / "run"), "");
+}
+
 TEST_F(TrainRecogniser, KeepsARunToItsSettingsAndToOneTraining) {
     ASSERT_EQ(train("run", "epochs=1").exit, 0);
     expect_refused(train("run", "batch=6"), {"other settings", "batch is 12 there and 6 here", "another -o"});
