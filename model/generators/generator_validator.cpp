@@ -31,6 +31,11 @@ GeneratorValidator::GeneratorValidator(const Config& config, const MotionSpec& s
       classes_(classes_of(clips)),
       metrics_(settings_.recogniser, settings_.opencl, dataset, clips, frames_) {}
 
+/// FIDs fall as motions grow more.
+std::string GeneratorValidator::fingerprint() const {
+    return fmt::format("{}, {} motions a class", metrics_.checksum(), settings_.score_per_class);
+}
+
 Labelled GeneratorValidator::motions_of(const std::vector<Array>& weights) const {
     const auto maker = method_named(config_.model(), spec_.where).maker(config_, spec_, weights, device_);
     const auto seed = step_seed(settings_.seed, scoring_draws);

@@ -26,7 +26,7 @@ class GeneratorValidator : public Validator {
     void begin(std::uint64_t epoch, std::uint64_t step) override;
     std::optional<Validation> end() override;
     bool in_background() const override { return true; }
-    std::string fingerprint() const override { return metrics_.checksum(); }
+    std::string fingerprint() const override;
 
   private:
     Labelled motions_of(const std::vector<Array>& weights) const;

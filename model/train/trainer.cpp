@@ -43,6 +43,7 @@ class Loop {
         if (events_.note && leads()) events_.note(line);
     }
     void resume();
+    void resume_scores(const Json& state);
     void compare_data(const Json& state) const;
     void share();
     std::vector<double> read_sums();
@@ -150,12 +151,7 @@ void Loop::resume() {
         const auto sums = state.at("sums").get<std::vector<double>>();
         for (std::size_t i = 0; i < sums.size(); ++i) learner_.sums()[static_cast<std::int64_t>(i)] = sums[i];
         epoch_seconds_ = state.at("seconds");
-        if (validator_ && state.contains("best") && state.at("scorer") == validator_->fingerprint()) {
-            best_ = report_from(state.at("best"));
-            best_->best = true;
-            best_selection_score_ = state.at("best").at("merit");
-            if (state.contains("last")) last_ = report_from(state.at("last"));
-        }
+        resume_scores(state);
         if (epoch() > settings_.epochs)
             say(fmt::format("{} epochs are done, more than epochs={}: nothing is left to train", epoch(),
                             settings_.epochs));
@@ -166,6 +162,19 @@ void Loop::resume() {
                             settings_.epochs));
     }
     folder_->rewind_log(epoch());
+}
+
+void Loop::resume_scores(const Json& state) {
+    if (!validator_ || !state.contains("best")) return;
+    if (state.at("scorer") != validator_->fingerprint()) {
+        say("the scores so far are of another recogniser or of other numbers of motions: the best weights "
+            "are chosen from now on");
+        return;
+    }
+    best_ = report_from(state.at("best"));
+    best_->best = true;
+    best_selection_score_ = state.at("best").at("merit");
+    if (state.contains("last")) last_ = report_from(state.at("last"));
 }
 
 /// What rank 0 found in the folder, to all.

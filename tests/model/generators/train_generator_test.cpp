@@ -187,6 +187,21 @@ TEST_F(TrainGenerator, LogsLossesAndScoresAndKeepsTheBest) {
     EXPECT_EQ(again.output, result.output) << "a finished training tells the same again";
 }
 
+TEST_F(TrainGenerator, BestWeightsAreThoseOfScoresAlike) {
+    const auto more = "score_every=1 --json " + recogniser() + " ";
+    ASSERT_EQ(train("run", more + "epochs=2 score_per_class=4").exit, 0);
+    auto checkpoint = *model::newest_checkpoint(dir / "run", "actformer", [](const std::string&) {});
+    checkpoint.state.at("best").at("merit") = 1e9;  // no later score is better
+    model::save_checkpoint(dir / "run", checkpoint);
+    const auto best_step = [&](const std::string& keys) {
+        const auto result = train("run", more + keys + " 2>/dev/null");
+        EXPECT_EQ(result.exit, 0) << result.output;
+        return nlohmann::json::parse(result.output).at("best").at("step").get<int>();
+    };
+    EXPECT_LE(best_step("epochs=3 score_per_class=4"), 4);
+    EXPECT_EQ(best_step("epochs=4 score_per_class=8"), 8) << "scores of fewer motions are others";
+}
+
 TEST_F(TrainGenerator, TwoProcessesAreOneWithTwiceTheBatch) {
     const auto port = std::to_string(20000 + ::getpid() % 20000);
     const auto of = [&](int rank) {
