@@ -88,6 +88,11 @@ double Dropout::scale() const {
     return 1 / (1 - threshold() * 0x1p-16);
 }
 
+std::uint64_t Dropout::seed() const {
+    const auto key = key_of(place);
+    return mixed((std::uint64_t{key[1]} << 32 | key[0]) + first_sample);
+}
+
 void draw_kept(const Dropout& dropout, std::int64_t sample, std::int64_t words, std::uint16_t* kept) {
     const auto key = key_of(dropout.place);
     const auto number = dropout.first_sample + static_cast<std::uint64_t>(sample);

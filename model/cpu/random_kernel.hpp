@@ -35,6 +35,7 @@ struct Dropout {
     bool drops() const { return rate > 0; }
     std::uint32_t threshold() const;  ///< of 16 bits, below which a number is dropped
     double scale() const;             ///< of those that stay
+    std::uint64_t seed() const;       ///< for a generator that draws a batch's part in one go
 };
 
 /// Numbers are told of by bits, 16 a word, the first the lowest; a row of them begins with a word.

@@ -35,7 +35,7 @@ at::Tensor sinusoids(std::int64_t count, std::int64_t width, const at::TensorOpt
 at::Tensor dropped(const at::Tensor& x, const cpu::Dropout& dropout) {
     if (!dropout.drops()) return x;
     if (x.is_cpu()) return x * kept_numbers(x, dropout);
-    at::manual_seed(dropout.place.seed ^ dropout.place.index);
+    at::manual_seed(dropout.seed());
     return at::dropout(x, dropout.rate, true);
 }
 

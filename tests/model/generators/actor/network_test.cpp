@@ -4,6 +4,8 @@
 #include <ATen/core/grad_mode.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "ingest/dataset/known_topologies.hpp"
@@ -158,6 +160,16 @@ TEST_F(ActorNetwork, DropsOtherNumbersInOtherStepsAndTheirShare) {
     // 12,000 numbers: the share has a deviation of 0.0027.
     EXPECT_NEAR((now == 0).to(at::kDouble).mean().item<double>(), 0.1, 0.012);
     EXPECT_NEAR(now.max().item<double>(), 1 / 0.9, 1e-4);  // rates are in steps of 2^-16
+}
+
+TEST_F(ActorNetwork, DropsOtherNumbersInEveryProcessStepAndTrainingOnGpus) {
+    std::set<std::uint64_t> seeds;
+    for (std::uint64_t seed = 0; seed < 10; ++seed)
+        for (std::uint64_t step = 0; step < 10; ++step)
+            for (std::uint64_t site = 0; site < 10; ++site)
+                for (const std::uint64_t first_sample : {0, 64, 128})
+                    seeds.insert(ActorDropout{0.1, seed, step, first_sample}.at(site).seed());
+    EXPECT_EQ(seeds.size(), 3000U);
 }
 
 TEST_F(ActorNetwork, AgreesWithPyTorch) {
