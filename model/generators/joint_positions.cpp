@@ -5,12 +5,14 @@
 namespace actformer::model {
 namespace {
 
+constexpr const char* without_joints = "d_joints=0";
+
 /// A joint's position is the root's and the sum of all limbs on the way to it, times their lengths.
 at::Tensor limbs_to_joints(const MotionSpec& spec) {
     const auto joints = spec.topology.joints();
     if (spec.bone_length.size() < joints)
-        throw Error("{}: limbs without lengths; ingest it anew, or do without joints (d_joints=0)",
-                    spec.where);
+        throw Error("{}: limbs without lengths; ingest it anew, or do without joints ({})", spec.where,
+                    without_joints);
     std::vector<float> sums(joints * joints);
     for (std::size_t j = 0; j < joints; ++j) {
         auto on_the_way = j;
@@ -27,7 +29,8 @@ at::Tensor limbs_to_joints(const MotionSpec& spec) {
 
 JointPositions::JointPositions(const MotionSpec& spec) : representation_(spec.representation) {
     if (representation_ == ingest::Representation::limb) limbs_to_joints_ = Constant(limbs_to_joints(spec));
-    if (representation_ == ingest::Representation::rot6d) rest_.emplace(spec.topology, spec.rest, spec.where);
+    if (representation_ == ingest::Representation::rot6d)
+        rest_.emplace(spec.topology, spec.rest, spec.where, without_joints);
 }
 
 at::Tensor JointPositions::of(const at::Tensor& motion) const {

@@ -27,13 +27,11 @@ bool has_kernel(const at::Tensor& motion) {
 }  // namespace
 
 RestJoints::RestJoints(const ingest::Topology& topology, const std::vector<float>& rest,
-                       const std::string& where) {
+                       const std::string& where, const std::string& without) {
     const auto joints = topology.joints();
     if (rest.size() != 3 * joints)
-        throw Error(
-            "{}: rotations without a rest skeleton; ingest it anew, or do without joints (rcxyz=none, "
-            "d_joints=0)",
-            where);
+        throw Error("{}: rotations without a rest skeleton; ingest it anew, or do without joints ({})", where,
+                    without);
     auto numbers = rest;
     const auto offsets =
         at::from_blob(numbers.data(), {static_cast<std::int64_t>(joints), 3, 1}, at::kFloat).clone();

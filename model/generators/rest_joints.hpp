@@ -16,8 +16,10 @@ namespace actformer::model {
 /// Joints of a rest skeleton, turned.
 class RestJoints {
   public:
-    /// `rest` (joints, 3) as ingest::BodyModel has it. Throws Error, beginning with `where`, where it is missing.
-    RestJoints(const ingest::Topology& topology, const std::vector<float>& rest, const std::string& where);
+    /// `rest` (joints, 3) as ingest::BodyModel has it. Throws Error, beginning with `where`, where it is missing; `without`, as in
+    /// "d_joints=0", is how the user does without joints.
+    RestJoints(const ingest::Topology& topology, const std::vector<float>& rest, const std::string& where,
+               const std::string& without);
 
     /// rotations (M, joints, 6) below each joint's parent, first two rows, of any length -> positions (M, joints, 3) from the root.
     at::Tensor positions(const at::Tensor& rotations) const;

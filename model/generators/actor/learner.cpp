@@ -40,7 +40,8 @@ ActorLearner::ActorLearner(std::shared_ptr<ActorNet> network, const ActorTrainin
       first_sample_(static_cast<std::uint64_t>(setup.processes.place().rank) * training.batch),
       feed_(setup.clips, sampling(training, first_sample_), training.batch, training.frames),
       net_(std::move(network)) {
-    if (training_.points == PointLoss::joints) joints_.emplace(spec.topology, spec.rest, spec.where);
+    if (training_.points == PointLoss::joints)
+        joints_.emplace(spec.topology, spec.rest, spec.where, "rcxyz=none");
 }
 
 /// Standard normal numbers (N, W).

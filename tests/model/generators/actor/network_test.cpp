@@ -13,6 +13,7 @@
 #include "model/generators/actor/losses.hpp"
 #include "model/nn/fused_post_norm.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/tensors.hpp"
 
@@ -233,7 +234,7 @@ TEST_F(ActorNetwork, AgreesWithPyTorch) {
                 const auto offset = parent < 0 ? all[0] : all[static_cast<std::int64_t>(j)] - all[parent];
                 for (int d = 0; d < 3; ++d) rest.push_back(offset[d].item<float>());
             }
-            joints.emplace(topology, rest, "test");
+            joints.emplace(topology, rest, "test", "");
         }
         for (const bool fused : {true, false}) {
             net.set_fused(fused);
@@ -275,7 +276,8 @@ TEST_F(ActorNetwork, RefusesWhatItCannotTake) {
     EXPECT_THROW(net.decode(at::randn({2, 36}), some_labels(3), 10), Error);
     EXPECT_THROW(net.decode(at::randn({2, 36}), some_labels(2), 0), Error);
     EXPECT_THROW(net.decode(at::randn({2, 36}), some_labels(2), most_actor_frames + 1), Error);
-    EXPECT_THROW(RestJoints(ingest::smpl24(), {}, "data"), Error);
+    EXPECT_EQ(error_of([] { RestJoints(ingest::smpl24(), {}, "data", "rcxyz=none"); }),
+              "data: rotations without a rest skeleton; ingest it anew, or do without joints (rcxyz=none)");
 }
 
 TEST_F(ActorNetwork, RefusesConfigurationsThatFitNoMotions) {
