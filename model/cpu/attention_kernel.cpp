@@ -1,5 +1,5 @@
 // The first sublayer of a transformer block, a sample at a time: long sequences as matrix products, short ones in plain loops.
-#include "model/cpu/kernel_support.hpp"
+#include "model/cpu/layer_support.hpp"
 #include "model/cpu/sequence_attention.hpp"
 #include "model/cpu/transformer_kernels.hpp"
 
@@ -13,17 +13,9 @@ struct SeenRows {};
 struct SeenGrad {};
 struct QkvGrad {};
 struct NormalGrad {};
-struct OuterPanel {};
-struct QkvBias {};
-struct ProjBias {};
-struct SumsNormWeight {};
-struct SumsNormBias {};
-struct SumsQkv {};
-struct SumsQkvBias {};
-struct SumsProj {};
-struct SumsProjBias {};
-struct QkvWeight {};
-struct ProjWeight {};
+struct QkvLayer {};
+struct ProjLayer {};
+struct NormLayer {};
 
 /// Sequences of at most so many tokens are worth no packing.
 constexpr std::int64_t short_length = 8;
@@ -72,28 +64,23 @@ void attention_forward(const AttentionShape& shape, const T* x, const AttentionW
                        const AttentionKept<T>& kept, T* out, int threads) {
     const auto width = shape.tokens.width, rows = shape.tokens.sample_rows();
     const auto pitch = padded<T>(width), qkv_pitch = shape.qkv_pitch(), seen_pitch = shape.seen_pitch();
-    auto &qkv_weight = packed_scratch<T>(QkvWeight{}), &proj_weight = packed_scratch<T>(ProjWeight{});
-    pack_forward(qkv_weight, weights.qkv.weight, 3 * width, width, threads);
-    pack_forward(proj_weight, weights.proj.weight, width, width, threads);
-    const T *bias_qkv = padded_copy(QkvBias{}, weights.qkv.bias, 3 * width),
-            *bias_proj = padded_copy(ProjBias{}, weights.proj.bias, width);
+    const auto qkv_map = packed_forward(QkvLayer{}, weights.qkv, 3 * width, width, threads),
+               proj_map = packed_forward(ProjLayer{}, weights.proj, width, width, threads);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t n = 0; n < shape.tokens.samples; ++n) {
         const T* from = x + n * rows * width;
         T* normal = scratch<T>(NormalRows{}, rows * pitch);
         T* qkv = kept.qkv ? kept.qkv + n * rows * qkv_pitch : scratch<T>(QkvRows{}, rows * qkv_pitch);
         T* seen = kept.seen ? kept.seen + n * rows * seen_pitch : scratch<T>(SeenRows{}, rows * seen_pitch);
-        for (std::int64_t r = 0; r < rows; ++r)
-            normalise_row(from + r * width, width, weights.norm.weight, weights.norm.bias,
-                          normal + r * pitch);
-        product<T>(EvenRows<T>{normal, pitch}, rows, qkv_weight, 3 * width,
-                   StoreBiased<T>{qkv, qkv_pitch, bias_qkv});
+        normalise_rows(from, rows, width, weights.norm, normal, pitch);
+        product<T>(EvenRows<T>{normal, pitch}, rows, qkv_map.weight, 3 * width,
+                   StoreBiased<T>{qkv, qkv_pitch, qkv_map.bias});
         if (shape.length() <= short_length)
             attend<T, ShortAttention<T>>(shape, qkv, seen);
         else
             attend<T, LongAttention<T>>(shape, qkv, seen);
-        product<T>(EvenRows<T>{seen, seen_pitch}, rows, proj_weight, width,
-                   StoreAdded<T>{from, out + n * rows * width, width, width, bias_proj});
+        product<T>(EvenRows<T>{seen, seen_pitch}, rows, proj_map.weight, width,
+                   StoreAdded<T>{from, out + n * rows * width, width, width, proj_map.bias});
     }
 }
 
@@ -103,55 +90,37 @@ void attention_backward(const AttentionShape& shape, const T* x, const Attention
                         int threads) {
     const auto width = shape.tokens.width, rows = shape.tokens.sample_rows();
     const auto pitch = padded<T>(width), qkv_pitch = shape.qkv_pitch(), seen_pitch = shape.seen_pitch();
-    auto &qkv_weight = packed_scratch<T>(QkvWeight{}), &proj_weight = packed_scratch<T>(ProjWeight{});
-    pack_backward(qkv_weight, weights.qkv.weight, 3 * width, width, threads);
-    pack_backward(proj_weight, weights.proj.weight, width, width, threads);
-    ThreadSums<T> norm_weight(threads, 1, width), norm_bias(threads, 1, width),
-        qkv_sums(threads, 3 * width, width), qkv_bias_sums(threads, 1, 3 * width),
-        proj_sums(threads, width, width), proj_bias_sums(threads, 1, width);
+    const auto &qkv_weight = packed_backward(QkvLayer{}, weights.qkv, 3 * width, width, threads),
+               &proj_weight = packed_backward(ProjLayer{}, weights.proj, width, width, threads);
+    NormSums<T> norm_sums(threads, width);
+    LinearSums<T> qkv_sums(threads, 3 * width, width), proj_sums(threads, width, width);
 #pragma omp parallel num_threads(threads)
     {
-        T *own_norm = norm_weight.own(SumsNormWeight{}), *own_norm_bias = norm_bias.own(SumsNormBias{}),
-          *own_qkv = qkv_sums.own(SumsQkv{}), *own_qkv_bias = qkv_bias_sums.own(SumsQkvBias{}),
-          *own_proj = proj_sums.own(SumsProj{}), *own_proj_bias = proj_bias_sums.own(SumsProjBias{});
+        const auto own_norm = norm_sums.own(NormLayer{});
+        const auto own_qkv = qkv_sums.own(QkvLayer{}), own_proj = proj_sums.own(ProjLayer{});
         T* normal = scratch<T>(NormalRows{}, rows * pitch);
         T* to_seen = scratch<T>(SeenGrad{}, rows * pitch);
         T* to_qkv = scratch<T>(QkvGrad{}, rows * qkv_pitch);
         T* back = scratch<T>(NormalGrad{}, rows * pitch);
-        T* panel = scratch<T>(OuterPanel{}, rows * panel_columns<T>);
 #pragma omp for schedule(static)
         for (std::int64_t n = 0; n < shape.tokens.samples; ++n) {
             const auto first = n * rows * width;
             const T *from = x + first, *g = grad + first, *qkv = kept.qkv + n * rows * qkv_pitch,
                     *seen = kept.seen + n * rows * seen_pitch;
             product<T>(EvenRows<T>{g, width}, rows, proj_weight, width, StorePlain<T>{to_seen, pitch});
-            add_outer_products<T>(
-                g, width, width, [=](std::int64_t r) { return seen + r * seen_pitch; }, width, rows, panel,
-                own_proj, proj_sums.pitch());
+            own_proj.add({g, width}, {seen, seen_pitch}, rows);
             if (shape.length() <= short_length)
                 attend_backward<T, ShortAttention<T>>(shape, qkv, to_seen, pitch, to_qkv);
             else
                 attend_backward<T, LongAttention<T>>(shape, qkv, to_seen, pitch, to_qkv);
-            for (std::int64_t r = 0; r < rows; ++r) {
-                normalise_row(from + r * width, width, weights.norm.weight, weights.norm.bias,
-                              normal + r * pitch);
-                add_row(g + r * width, width, own_proj_bias);
-                add_row(to_qkv + r * qkv_pitch, 3 * width, own_qkv_bias);
-            }
-            add_outer_products<T>(
-                to_qkv, qkv_pitch, 3 * width, [=](std::int64_t r) { return normal + r * pitch; }, width, rows,
-                panel, own_qkv, qkv_sums.pitch());
+            normalise_rows(from, rows, width, weights.norm, normal, pitch);
+            own_qkv.add({to_qkv, qkv_pitch}, {normal, pitch}, rows);
             product<T>(EvenRows<T>{to_qkv, qkv_pitch}, rows, qkv_weight, width, StorePlain<T>{back, pitch});
-            for (std::int64_t r = 0; r < rows; ++r)
-                normalise_row_backward(from + r * width, back + r * pitch, width, weights.norm.weight,
-                                       g + r * width, to.x + first + r * width, own_norm, own_norm_bias);
+            normalise_rows_backward(from, back, pitch, rows, width, weights.norm, g, to.x + first, own_norm);
         }
-        norm_weight.write(to.norm.weight);
-        norm_bias.write(to.norm.bias);
-        qkv_sums.write(to.qkv.weight);
-        qkv_bias_sums.write(to.qkv.bias);
-        proj_sums.write(to.proj.weight);
-        proj_bias_sums.write(to.proj.bias);
+        norm_sums.write(to.norm);
+        qkv_sums.write(to.qkv);
+        proj_sums.write(to.proj);
     }
 }
 

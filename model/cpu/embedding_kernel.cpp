@@ -1,17 +1,13 @@
 // Latents to tokens.
-#include "model/cpu/kernel_support.hpp"
+#include "model/cpu/layer_support.hpp"
 #include "model/cpu/motion_kernels.hpp"
 
 namespace actformer::model::cpu {
 namespace {
 
 /// What scratch memory is for.
-struct BiasRow {};
 struct FrameGrad {};
-struct OuterPanel {};
-struct SumsWeight {};
-struct SumsBias {};
-struct LinearWeightPanels {};
+struct LatentLayer {};
 
 /// A latent's row of tokens, for the persons that share it.
 template <typename T>
@@ -43,17 +39,15 @@ template <typename T>
 void embed_forward(const EmbeddingShape& shape, const T* latent, const LinearWeight<T>& weight,
                    const T* classes, const T* positions, T* tokens, int threads) {
     const auto width = shape.width, sharing = shape.persons / shape.streams;
-    auto& packed = packed_scratch<T>(LinearWeightPanels{});
-    pack_forward(packed, weight.weight, width, shape.channels, threads);
-    const T* bias = padded_copy(BiasRow{}, weight.bias, width);
+    const auto map = packed_forward(LatentLayer{}, weight, width, shape.channels, threads);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t n = 0; n < shape.samples; ++n) {
         T* to = tokens + n * shape.persons * shape.tokens() * width;
         for (std::int64_t s = 0; s < shape.streams; ++s)
             product<T>(
                 EvenRows<T>{latent + (n * shape.streams + s) * shape.frames * shape.channels, shape.channels},
-                shape.frames, packed, width,
-                StoreTokens<T>{shape, bias, positions, to, s * sharing, (s + 1) * sharing});
+                shape.frames, map.weight, width,
+                StoreTokens<T>{shape, map.bias, positions, to, s * sharing, (s + 1) * sharing});
         for (std::int64_t p = 0; p < shape.persons; ++p)
             for (std::int64_t c = 0; c < width; ++c)
                 to[p * shape.tokens() * width + c] = classes[n * width + c] + positions[p * width + c];
@@ -65,12 +59,11 @@ void embed_backward(const EmbeddingShape& shape, const T* latent, const T* grad,
                     const EmbeddingGradients<T>& to, int threads) {
     const auto width = shape.width, tokens = shape.tokens(), persons = shape.persons,
                sharing = persons / shape.streams;
-    ThreadSums<T> weight(threads, width, shape.channels), bias(threads, 1, width);
+    LinearSums<T> sums(threads, width, shape.channels);
 #pragma omp parallel num_threads(threads)
     {
-        T *own_weight = weight.own(SumsWeight{}), *own_bias = bias.own(SumsBias{});
+        const auto own = sums.own(LatentLayer{});
         T* frames = scratch<T>(FrameGrad{}, shape.frames * width);
-        T* panel = scratch<T>(OuterPanel{}, shape.frames * panel_columns<T>);
 #pragma omp for schedule(static)
         for (std::int64_t n = 0; n < shape.samples; ++n) {
             const T* sample = grad + n * persons * tokens * width;
@@ -81,15 +74,11 @@ void embed_backward(const EmbeddingShape& shape, const T* latent, const T* grad,
                 std::fill_n(frames, shape.frames * width, T(0));
                 for (std::int64_t p = s * sharing; p < (s + 1) * sharing; ++p)
                     add_row(sample + (p * tokens + 1) * width, shape.frames * width, frames);
-                for (std::int64_t t = 0; t < shape.frames; ++t) add_row(frames + t * width, width, own_bias);
                 const T* seen = latent + (n * shape.streams + s) * shape.frames * shape.channels;
-                add_outer_products<T>(
-                    frames, width, width, [=, &shape](std::int64_t t) { return seen + t * shape.channels; },
-                    shape.channels, shape.frames, panel, own_weight, weight.pitch());
+                own.add({frames, width}, {seen, shape.channels}, shape.frames);
             }
         }
-        weight.write(to.weight.weight);
-        bias.write(to.weight.bias);
+        sums.write(to.weight);
 #pragma omp for schedule(static) collapse(2)
         for (std::int64_t t = 0; t < tokens; ++t)
             for (std::int64_t p = 0; p < persons; ++p) {

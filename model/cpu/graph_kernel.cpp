@@ -1,14 +1,19 @@
 // Graph convolution over the edges, frames at a time.
-#include <omp.h>
-
 #include <cstring>
 #include <vector>
 
+#include "model/cpu/kernel_support.hpp"
 #include "model/cpu/layer_kernels.hpp"
 #include "model/cpu/row_products.hpp"
 
 namespace actformer::model::cpu {
 namespace {
+
+/// What scratch memory is for.
+struct GatheredRows {};
+struct SumsWeight {};
+struct SumsStrength {};
+struct SumsBias {};
 
 /// About as many rows at once as fit in the first-level cache beside a panel.
 std::int64_t frames_at_once(const MotionShape& shape) {
@@ -61,17 +66,6 @@ std::vector<T> transposed(const T* values, std::int64_t rows, std::int64_t colum
     return out;
 }
 
-/// A thread's own sums.
-template <typename T>
-struct Sums {
-    std::vector<T> weight, strength, bias;
-};
-
-template <typename T>
-void add_into(T* to, const std::vector<T>& from, std::int64_t count) {
-    for (std::int64_t i = 0; i < count; ++i) to[i] += from[static_cast<std::size_t>(i)];
-}
-
 }  // namespace
 
 template <typename T>
@@ -82,14 +76,14 @@ void graph_forward(const MotionShape& shape, std::span<const Edge> edges, const 
     const auto step = frames_at_once(shape);
 #pragma omp parallel num_threads(threads)
     {
-        std::vector<T> gathered(static_cast<std::size_t>(step * joints * pitch));
+        T* gathered = scratch<T>(GatheredRows{}, step * joints * pitch);
 #pragma omp for schedule(static)
         for (std::int64_t t = 0; t < all; t += step) {
             const auto frames = std::min(step, all - t);
-            gather(edges, strength, x + t * joints * in, in, frames, joints, pitch, gathered.data());
+            gather(edges, strength, x + t * joints * in, in, frames, joints, pitch, gathered);
             T* to = y + t * joints * out;
             for (std::int64_t f = 0; f < frames; ++f) std::copy_n(bias, joints * out, to + f * joints * out);
-            add_product<T>({gathered.data(), joints * pitch, pitch}, panels, {to, joints * out, out}, frames,
+            add_product<T>({gathered, joints * pitch, pitch}, panels, {to, joints * out, out}, frames,
                            joints);
         }
     }
@@ -103,39 +97,31 @@ void graph_backward(const MotionShape& shape, std::span<const Edge> edges, const
     const auto step = frames_at_once(shape);
     const auto back = transposed(weight, 3 * in, out, pitch);
     const Panels<T> panels(back.data(), out, pitch, pitch);
-    std::vector<Sums<T>> sums(static_cast<std::size_t>(threads));
+    const auto edge_count = static_cast<std::int64_t>(edges.size());
+    ThreadSums<T> weight_sums(threads, 3 * in, out, pitch), strength_sums(threads, 1, edge_count),
+        bias_sums(threads, 1, joints * out);
 #pragma omp parallel num_threads(threads)
     {
-        auto& own = sums[static_cast<std::size_t>(omp_get_thread_num())];
-        own.weight.assign(static_cast<std::size_t>(pitch * out), T(0));
-        own.strength.assign(edges.size(), T(0));
-        own.bias.assign(static_cast<std::size_t>(joints * out), T(0));
-        std::vector<T> gathered(static_cast<std::size_t>(step * joints * pitch));
+        T *own_weight = weight_sums.own(SumsWeight{}), *own_strength = strength_sums.own(SumsStrength{}),
+          *own_bias = bias_sums.own(SumsBias{});
+        T* gathered = scratch<T>(GatheredRows{}, step * joints * pitch);
 #pragma omp for schedule(static)
         for (std::int64_t t = 0; t < all; t += step) {
             const auto frames = std::min(step, all - t);
             const T *from = x + t * joints * in, *g = grad + t * joints * out;
             const Rows<const T> g_rows{g, joints * out, out};
-            gather(edges, strength, from, in, frames, joints, pitch, gathered.data());
-            add_outer<T>({gathered.data(), joints * pitch, pitch}, g_rows, frames, joints, pitch, out,
-                         own.weight.data());
-            for (std::int64_t f = 0; f < frames; ++f)
-                for (std::int64_t i = 0; i < joints * out; ++i)
-                    own.bias[static_cast<std::size_t>(i)] += g[f * joints * out + i];
-            std::fill(gathered.begin(), gathered.end(), T(0));
-            add_product<T>(g_rows, panels, {gathered.data(), joints * pitch, pitch}, frames, joints);
-            scatter(edges, strength, from, in, frames, joints, pitch, gathered.data(), to.x + t * joints * in,
-                    own.strength.data());
+            gather(edges, strength, from, in, frames, joints, pitch, gathered);
+            add_outer<T>({gathered, joints * pitch, pitch}, g_rows, frames, joints, pitch, out, own_weight,
+                         weight_sums.pitch());
+            for (std::int64_t f = 0; f < frames; ++f) add_row(g + f * joints * out, joints * out, own_bias);
+            std::fill_n(gathered, step * joints * pitch, T(0));
+            add_product<T>(g_rows, panels, {gathered, joints * pitch, pitch}, frames, joints);
+            scatter(edges, strength, from, in, frames, joints, pitch, gathered, to.x + t * joints * in,
+                    own_strength);
         }
-    }
-    std::fill_n(to.weight, 3 * in * out, T(0));
-    std::fill_n(to.strength, edges.size(), T(0));
-    std::fill_n(to.bias, joints * out, T(0));
-    for (const auto& own : sums) {
-        if (own.weight.empty()) continue;  // fewer threads came than were asked for
-        add_into(to.weight, own.weight, 3 * in * out);
-        add_into(to.strength, own.strength, static_cast<std::int64_t>(edges.size()));
-        add_into(to.bias, own.bias, joints * out);
+        weight_sums.write(to.weight);
+        strength_sums.write(to.strength);
+        bias_sums.write(to.bias);
     }
 }
 

@@ -1,9 +1,8 @@
-// What the kernels share: memory that threads keep from call to call, packing, sums over threads, layer normalisation.
+// What the kernels share: memory that threads keep from call to call, packing, sums over threads.
 #pragma once
 
 #include <omp.h>
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -64,8 +63,13 @@ template <typename T>
 class ThreadSums {
   public:
     ThreadSums(int threads, std::int64_t rows, std::int64_t columns)
+        : ThreadSums(threads, rows, columns, rows) {}
+
+    /// A thread's own have room for `own_rows`, of which the first `rows` are the gradient.
+    ThreadSums(int threads, std::int64_t rows, std::int64_t columns, std::int64_t own_rows)
         : rows_(rows),
           columns_(columns),
+          own_rows_(own_rows),
           pitch_(panel_padded<T>(columns)),
           sums_(static_cast<std::size_t>(threads)) {}
 
@@ -75,7 +79,7 @@ class ThreadSums {
     template <typename Purpose>
     T* own(Purpose purpose) {
         return sums_[static_cast<std::size_t>(omp_get_thread_num())] =
-                   zeroed_scratch<T>(purpose, rows_ * pitch_);
+                   zeroed_scratch<T>(purpose, own_rows_ * pitch_);
     }
 
     /// Called by every thread of a team, behind a barrier.
@@ -91,7 +95,7 @@ class ThreadSums {
     }
 
   private:
-    std::int64_t rows_, columns_, pitch_;
+    std::int64_t rows_, columns_, own_rows_, pitch_;
     std::vector<T*> sums_;
 };
 
@@ -99,60 +103,6 @@ template <typename T>
 inline void add_row(const T* from, std::int64_t count, T* to) {
 #pragma omp simd
     for (std::int64_t i = 0; i < count; ++i) to[i] += from[i];
-}
-
-constexpr double layer_norm_epsilon = 1e-6;
-
-/// A row's mean and one over its deviation.
-template <typename T>
-struct RowStatistics {
-    T mean, inverse;
-
-    RowStatistics(const T* x, std::int64_t width, double epsilon = layer_norm_epsilon) {
-        T sum = 0, squares = 0;
-#pragma omp simd reduction(+ : sum)
-        for (std::int64_t c = 0; c < width; ++c) sum += x[c];
-        mean = sum / static_cast<T>(width);
-        const T m = mean;
-#pragma omp simd reduction(+ : squares)
-        for (std::int64_t c = 0; c < width; ++c) squares += (x[c] - m) * (x[c] - m);
-        inverse = 1 / std::sqrt(squares / static_cast<T>(width) + static_cast<T>(epsilon));
-    }
-};
-
-template <typename T>
-inline void normalise_row(const T* x, std::int64_t width, const T* weight, const T* bias, T* to,
-                          double epsilon = layer_norm_epsilon) {
-    const RowStatistics<T> row(x, width, epsilon);
-    const T mean = row.mean, inverse = row.inverse;
-#pragma omp simd
-    for (std::int64_t c = 0; c < width; ++c) to[c] = (x[c] - mean) * inverse * weight[c] + bias[c];
-}
-
-/// to = onto + the gradient to x of a normalised row whose gradient is `grad`; `onto` may be null, or `to`.
-template <typename T>
-inline void normalise_row_backward(const T* x, const T* grad, std::int64_t width, const T* weight,
-                                   const T* onto, T* to, T* grad_weight, T* grad_bias,
-                                   double epsilon = layer_norm_epsilon) {
-    const RowStatistics<T> row(x, width, epsilon);
-    const T mean = row.mean, inverse = row.inverse;
-    T sum = 0, along = 0;
-#pragma omp simd reduction(+ : sum, along)
-    for (std::int64_t c = 0; c < width; ++c) {
-        const T normal = (x[c] - mean) * inverse, g = grad[c] * weight[c];
-        grad_weight[c] += grad[c] * normal;
-        grad_bias[c] += grad[c];
-        sum += g;
-        along += g * normal;
-    }
-    sum /= static_cast<T>(width);
-    along /= static_cast<T>(width);
-#pragma omp simd
-    for (std::int64_t c = 0; c < width; ++c) {
-        const T normal = (x[c] - mean) * inverse;
-        const T g = inverse * (grad[c] * weight[c] - sum - normal * along);
-        to[c] = onto ? onto[c] + g : g;
-    }
 }
 
 }  // namespace actformer::model::cpu

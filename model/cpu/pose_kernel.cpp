@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "model/cpu/gram_schmidt.hpp"
-#include "model/cpu/kernel_support.hpp"
+#include "model/cpu/layer_support.hpp"
 #include "model/cpu/motion_kernels.hpp"
 #include "model/cpu/vector_math.hpp"
 
@@ -12,19 +12,14 @@ namespace {
 /// What scratch memory is for.
 struct TurnedWeight {};
 struct TurnedBias {};
-struct BiasRow {};
 struct NormalRows {};
 struct RawRows {};
 struct RawGrad {};
 struct NormalGrad {};
-struct OuterPanel {};
-struct SumsNormWeight {};
-struct SumsNormBias {};
-struct SumsHead {};
-struct SumsHeadBias {};
 struct HeadGrad {};
 struct HeadBiasGrad {};
-struct HeadWeight {};
+struct HeadLayer {};
+struct NormLayer {};
 
 constexpr double length_epsilon = 1e-4;
 
@@ -191,18 +186,15 @@ void pose_forward(const PoseShape& shape, const T* x, const PoseWeights<T>& weig
     T* turned_biases = scratch<T>(TurnedBias{}, out);
     turn(weights.head.weight, nodes, numbers, width, false, turned);
     turn(weights.head.bias, nodes, numbers, 1, false, turned_biases);
-    auto& packed = packed_scratch<T>(HeadWeight{});
-    pack_forward(packed, turned, out, width, threads);
-    const T* bias = padded_copy(BiasRow{}, turned_biases, out);
+    const auto head = packed_forward<T>(HeadLayer{}, {turned, turned_biases}, out, width, threads);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t sequence = 0; sequence < shape.tokens.samples * shape.tokens.persons; ++sequence) {
         const T* from = x + (sequence * shape.tokens.tokens + 1) * width;  // behind the class
         T* normal = scratch<T>(NormalRows{}, frames * pitch);
         T* raw = kept ? kept + sequence * frames * raw_pitch : scratch<T>(RawRows{}, frames * raw_pitch);
-        for (std::int64_t t = 0; t < frames; ++t)
-            normalise_row(from + t * width, width, weights.norm.weight, weights.norm.bias,
-                          normal + t * pitch);
-        product<T>(EvenRows<T>{normal, pitch}, frames, packed, out, StoreBiased<T>{raw, raw_pitch, bias});
+        normalise_rows(from, frames, width, weights.norm, normal, pitch);
+        product<T>(EvenRows<T>{normal, pitch}, frames, head.weight, out,
+                   StoreBiased<T>{raw, raw_pitch, head.bias});
         for (std::int64_t t = 0; t < frames; ++t)
             shape_frame(raw + t * raw_pitch, shape, motion + (sequence * numbers * frames + t) * nodes,
                         frames * nodes);
@@ -217,47 +209,37 @@ void pose_backward(const PoseShape& shape, const T* x, const PoseWeights<T>& wei
                raw_pitch = shape.raw_pitch();
     T* turned = scratch<T>(TurnedWeight{}, out * width);
     turn(weights.head.weight, nodes, numbers, width, false, turned);
-    auto& packed = packed_scratch<T>(HeadWeight{});
-    pack_backward(packed, turned, out, width, threads);
-    T *to_head = scratch<T>(HeadGrad{}, out * width), *to_head_bias = scratch<T>(HeadBiasGrad{}, out);
-    ThreadSums<T> norm_weight(threads, 1, width), norm_bias(threads, 1, width), head(threads, out, width),
-        head_bias(threads, 1, out);
+    const auto& head = packed_backward<T>(HeadLayer{}, {turned, nullptr}, out, width, threads);
+    const ParameterGradient<T> to_head{scratch<T>(HeadGrad{}, out * width), scratch<T>(HeadBiasGrad{}, out)};
+    NormSums<T> norm_sums(threads, width);
+    LinearSums<T> head_sums(threads, out, width);
 #pragma omp parallel num_threads(threads)
     {
-        T *own_norm = norm_weight.own(SumsNormWeight{}), *own_norm_bias = norm_bias.own(SumsNormBias{}),
-          *own_head = head.own(SumsHead{}), *own_bias = head_bias.own(SumsHeadBias{});
+        const auto own_norm = norm_sums.own(NormLayer{});
+        const auto own_head = head_sums.own(HeadLayer{});
         T* normal = scratch<T>(NormalRows{}, frames * pitch);
         T* to_raw = scratch<T>(RawGrad{}, frames * raw_pitch);
         T* back = scratch<T>(NormalGrad{}, frames * pitch);
-        T* panel = scratch<T>(OuterPanel{}, frames * panel_columns<T>);
 #pragma omp for schedule(static)
         for (std::int64_t sequence = 0; sequence < shape.tokens.samples * shape.tokens.persons; ++sequence) {
             const auto first = (sequence * shape.tokens.tokens + 1) * width;
             const T* from = x + first;
-            for (std::int64_t t = 0; t < frames; ++t) {
+            for (std::int64_t t = 0; t < frames; ++t)
                 shape_frame_backward(kept + (sequence * frames + t) * raw_pitch, shape,
                                      grad + (sequence * numbers * frames + t) * nodes, frames * nodes,
                                      to_raw + t * raw_pitch);
-                add_row(to_raw + t * raw_pitch, out, own_bias);
-                normalise_row(from + t * width, width, weights.norm.weight, weights.norm.bias,
-                              normal + t * pitch);
-            }
-            add_outer_products<T>(
-                to_raw, raw_pitch, out, [=](std::int64_t t) { return normal + t * pitch; }, width, frames,
-                panel, own_head, head.pitch());
-            product<T>(EvenRows<T>{to_raw, raw_pitch}, frames, packed, width, StorePlain<T>{back, pitch});
+            normalise_rows(from, frames, width, weights.norm, normal, pitch);
+            own_head.add({to_raw, raw_pitch}, {normal, pitch}, frames);
+            product<T>(EvenRows<T>{to_raw, raw_pitch}, frames, head, width, StorePlain<T>{back, pitch});
             std::fill_n(to.x + first - width, width, T(0));
-            for (std::int64_t t = 0; t < frames; ++t)
-                normalise_row_backward<T>(from + t * width, back + t * pitch, width, weights.norm.weight,
-                                          nullptr, to.x + first + t * width, own_norm, own_norm_bias);
+            normalise_rows_backward<T>(from, back, pitch, frames, width, weights.norm, nullptr, to.x + first,
+                                       own_norm);
         }
-        norm_weight.write(to.norm.weight);
-        norm_bias.write(to.norm.bias);
-        head.write(to_head);
-        head_bias.write(to_head_bias);
+        norm_sums.write(to.norm);
+        head_sums.write(to_head);
     }
-    turn(to_head, nodes, numbers, width, true, to.head.weight);
-    turn(to_head_bias, nodes, numbers, 1, true, to.head.bias);
+    turn(to_head.weight, nodes, numbers, width, true, to.head.weight);
+    turn(to_head.bias, nodes, numbers, 1, true, to.head.bias);
 }
 
 #define ACTFORMER_POSE(T)                                                                                 \

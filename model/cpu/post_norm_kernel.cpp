@@ -2,7 +2,7 @@
 #include "model/cpu/post_norm_kernels.hpp"
 
 #include "model/cpu/dropped_rows.hpp"
-#include "model/cpu/kernel_support.hpp"
+#include "model/cpu/layer_support.hpp"
 #include "model/cpu/sequence_attention.hpp"
 #include "model/cpu/vector_math.hpp"
 
@@ -21,18 +21,11 @@ struct QkvGrad {};
 struct MappedRows {};
 struct ActiveRows {};
 struct HiddenGrad {};
-struct OuterPanel {};
-struct FirstBias {};
-struct SecondBias {};
 struct NoBias {};
-struct FirstWeight {};
-struct SecondWeight {};
-struct SumsNormWeight {};
-struct SumsNormBias {};
-struct SumsFirst {};
-struct SumsFirstBias {};
-struct SumsSecond {};
-struct SumsSecondBias {};
+struct FirstLayer {};
+struct SecondLayer {};
+struct NormLayer {};
+struct SharedBias {};
 
 template <typename T, typename Purpose>
 KeptRows<T> drawn(Purpose purpose, const Dropout& dropout, std::int64_t sample, std::int64_t rows,
@@ -58,18 +51,18 @@ class ResidualNorm {
         for (std::int64_t r = 0; r < rows_; ++r) {
             T* to = sum ? sum + r * width_ : branch + r * pitch_;
             add(x + r * width_, branch + r * pitch_, kept, r, to);
-            normalise_row(to, width_, post_.norm.weight, post_.norm.bias, out + r * width_, post_.epsilon);
+            normalise_row(to, width_, post_.norm, out + r * width_, post_.epsilon);
         }
     }
 
     /// From the gradient of what forward gave to that of x, as far as it comes by the sum, and of the branch, (rows, pitch).
-    void backward(std::int64_t sample, const T* sum, const T* grad, T* to_x, T* to_branch, T* to_weight,
-                  T* to_bias) const {
+    void backward(std::int64_t sample, const T* sum, const T* grad, T* to_x, T* to_branch,
+                  const ParameterGradient<T>& own) const {
         const auto kept = drawn<T>(BranchBits{}, post_.branch, sample, rows_, width_);
         for (std::int64_t r = 0; r < rows_; ++r) {
             T* to = to_x + r * width_;
             normalise_row_backward<T>(sum + r * width_, grad + r * width_, width_, post_.norm.weight, nullptr,
-                                      to, to_weight, to_bias, post_.epsilon);
+                                      to, own, post_.epsilon);
             for (std::int64_t c = 0; c < width_; c += lanes<T>) {
                 const auto here = load_part(to + c, std::min<std::int64_t>(lanes<T>, width_ - c));
                 store(to_branch + r * pitch_ + c, kept ? kept.of(here, r, c) : here);
@@ -96,11 +89,6 @@ void add_product_to(const T* rows, std::int64_t pitch, std::int64_t count, const
                     std::int64_t width, T* to_x) {
     const T* none = zeroed_scratch<T>(NoBias{}, panel_padded<T>(width));
     product<T>(EvenRows<T>{rows, pitch}, count, weight, width, StoreAdded<T>{to_x, to_x, width, width, none});
-}
-
-template <typename T>
-void add_rows_to(const T* rows, std::int64_t pitch, std::int64_t count, std::int64_t columns, T* sums) {
-    for (std::int64_t r = 0; r < count; ++r) add_row(rows + r * pitch, columns, sums);
 }
 
 /// gelu of up's outputs, without what is dropped.
@@ -133,11 +121,8 @@ void attention_norm_forward(const AttentionShape& shape, const T* x, const Atten
                             const AttentionNormKept<T>& kept, T* out, int threads) {
     const auto width = shape.tokens.width, rows = shape.length();
     const auto qkv_pitch = shape.qkv_pitch(), seen_pitch = shape.seen_pitch();
-    auto &qkv_weight = packed_scratch<T>(FirstWeight{}), &proj_weight = packed_scratch<T>(SecondWeight{});
-    pack_forward(qkv_weight, weights.qkv.weight, 3 * width, width, threads);
-    pack_forward(proj_weight, weights.proj.weight, width, width, threads);
-    const T *bias_qkv = padded_copy(FirstBias{}, weights.qkv.bias, 3 * width),
-            *bias_proj = padded_copy(SecondBias{}, weights.proj.bias, width);
+    const auto qkv_map = packed_forward(FirstLayer{}, weights.qkv, 3 * width, width, threads),
+               proj_map = packed_forward(SecondLayer{}, weights.proj, width, width, threads);
     const LongAttention<T> attention(shape);
     const ResidualNorm<T> residual(weights.post, shape.tokens);
 #pragma omp parallel for num_threads(threads) schedule(static)
@@ -146,12 +131,12 @@ void attention_norm_forward(const AttentionShape& shape, const T* x, const Atten
         T* qkv = kept.qkv ? kept.qkv + first * qkv_pitch : scratch<T>(QkvRows{}, rows * qkv_pitch);
         T* seen = kept.seen ? kept.seen + first * seen_pitch : scratch<T>(SeenRows{}, rows * seen_pitch);
         T* branch = residual.branch_rows();
-        product<T>(EvenRows<T>{x + first * width, width}, rows, qkv_weight, 3 * width,
-                   StoreBiased<T>{qkv, qkv_pitch, bias_qkv});
+        product<T>(EvenRows<T>{x + first * width, width}, rows, qkv_map.weight, 3 * width,
+                   StoreBiased<T>{qkv, qkv_pitch, qkv_map.bias});
         attention.forward({qkv, qkv_pitch}, {seen, seen_pitch},
                           drawn<T>(InnerBits{}, weights.weights_dropout, n, shape.heads * rows, rows));
-        product<T>(EvenRows<T>{seen, seen_pitch}, rows, proj_weight, width,
-                   StoreBiased<T>{branch, residual.pitch(), bias_proj});
+        product<T>(EvenRows<T>{seen, seen_pitch}, rows, proj_map.weight, width,
+                   StoreBiased<T>{branch, residual.pitch(), proj_map.bias});
         residual.forward(n, x + first * width, branch, kept.sum ? kept.sum + first * width : nullptr,
                          out + first * width);
     }
@@ -163,52 +148,38 @@ void attention_norm_backward(const AttentionShape& shape, const T* x, const Atte
                              const AttentionGradients<T>& to, int threads) {
     const auto width = shape.tokens.width, rows = shape.length();
     const auto qkv_pitch = shape.qkv_pitch(), seen_pitch = shape.seen_pitch();
-    auto &qkv_weight = packed_scratch<T>(FirstWeight{}), &proj_weight = packed_scratch<T>(SecondWeight{});
-    pack_backward(qkv_weight, weights.qkv.weight, 3 * width, width, threads);
-    pack_backward(proj_weight, weights.proj.weight, width, width, threads);
+    const auto &qkv_weight = packed_backward(FirstLayer{}, weights.qkv, 3 * width, width, threads),
+               &proj_weight = packed_backward(SecondLayer{}, weights.proj, width, width, threads);
     const LongAttention<T> attention(shape);
     const ResidualNorm<T> residual(weights.post, shape.tokens);
     const auto pitch = residual.pitch();
-    ThreadSums<T> norm_weight(threads, 1, width), norm_bias(threads, 1, width),
-        qkv_sums(threads, 3 * width, width), qkv_bias_sums(threads, 1, 3 * width),
-        proj_sums(threads, width, width), proj_bias_sums(threads, 1, width);
+    NormSums<T> norm_sums(threads, width);
+    LinearSums<T> qkv_sums(threads, 3 * width, width), proj_sums(threads, width, width);
 #pragma omp parallel num_threads(threads)
     {
-        T *own_norm = norm_weight.own(SumsNormWeight{}), *own_norm_bias = norm_bias.own(SumsNormBias{}),
-          *own_qkv = qkv_sums.own(SumsFirst{}), *own_qkv_bias = qkv_bias_sums.own(SumsFirstBias{}),
-          *own_proj = proj_sums.own(SumsSecond{}), *own_proj_bias = proj_bias_sums.own(SumsSecondBias{});
+        const auto own_norm = norm_sums.own(NormLayer{});
+        const auto own_qkv = qkv_sums.own(FirstLayer{}), own_proj = proj_sums.own(SecondLayer{});
         T* to_branch = scratch<T>(BranchGrad{}, rows * pitch);
         T* to_seen = scratch<T>(SeenGrad{}, rows * pitch);
         T* to_qkv = scratch<T>(QkvGrad{}, rows * qkv_pitch);
-        T* panel = scratch<T>(OuterPanel{}, rows * panel_columns<T>);
 #pragma omp for schedule(static)
         for (std::int64_t n = 0; n < shape.tokens.samples; ++n) {
             const auto first = n * rows;
             const T *from = x + first * width, *qkv = kept.qkv + first * qkv_pitch,
                     *seen = kept.seen + first * seen_pitch;
             T* to_x = to.x + first * width;
-            residual.backward(n, kept.sum + first * width, grad + first * width, to_x, to_branch, own_norm,
-                              own_norm_bias);
+            residual.backward(n, kept.sum + first * width, grad + first * width, to_x, to_branch, own_norm);
             product<T>(EvenRows<T>{to_branch, pitch}, rows, proj_weight, width,
                        StorePlain<T>{to_seen, pitch});
-            add_rows_to(to_branch, pitch, rows, width, own_proj_bias);
-            add_outer_products<T>(
-                to_branch, pitch, width, [=](std::int64_t r) { return seen + r * seen_pitch; }, width, rows,
-                panel, own_proj, proj_sums.pitch());
+            own_proj.add({to_branch, pitch}, {seen, seen_pitch}, rows);
             attention.backward({qkv, qkv_pitch}, {to_seen, pitch}, {to_qkv, qkv_pitch},
                                drawn<T>(InnerBits{}, weights.weights_dropout, n, shape.heads * rows, rows));
-            add_rows_to(to_qkv, qkv_pitch, rows, 3 * width, own_qkv_bias);
-            add_outer_products<T>(
-                to_qkv, qkv_pitch, 3 * width, [=](std::int64_t r) { return from + r * width; }, width, rows,
-                panel, own_qkv, qkv_sums.pitch());
+            own_qkv.add({to_qkv, qkv_pitch}, {from, width}, rows);
             add_product_to(to_qkv, qkv_pitch, rows, qkv_weight, width, to_x);
         }
-        norm_weight.write(to.norm.weight);
-        norm_bias.write(to.norm.bias);
-        qkv_sums.write(to.qkv.weight);
-        qkv_bias_sums.write(to.qkv.bias);
-        proj_sums.write(to.proj.weight);
-        proj_bias_sums.write(to.proj.bias);
+        norm_sums.write(to.norm);
+        qkv_sums.write(to.qkv);
+        proj_sums.write(to.proj);
     }
 }
 
@@ -217,11 +188,8 @@ void mlp_norm_forward(const MlpShape& shape, const T* x, const MlpNormWeights<T>
                       const MlpNormKept<T>& kept, T* out, int threads) {
     const auto width = shape.tokens.width, hidden = shape.hidden, rows = shape.tokens.sample_rows();
     const auto hidden_pitch = shape.hidden_pitch();
-    auto &up = packed_scratch<T>(FirstWeight{}), &down = packed_scratch<T>(SecondWeight{});
-    pack_forward(up, weights.up.weight, hidden, width, threads);
-    pack_forward(down, weights.down.weight, width, hidden, threads);
-    const T *bias_up = padded_copy(FirstBias{}, weights.up.bias, hidden),
-            *bias_down = padded_copy(SecondBias{}, weights.down.bias, width);
+    const auto up = packed_forward(FirstLayer{}, weights.up, hidden, width, threads),
+               down = packed_forward(SecondLayer{}, weights.down, width, hidden, threads);
     const ResidualNorm<T> residual(weights.post, shape.tokens);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t n = 0; n < shape.tokens.samples; ++n) {
@@ -229,12 +197,12 @@ void mlp_norm_forward(const MlpShape& shape, const T* x, const MlpNormWeights<T>
         T* active = scratch<T>(ActiveRows{}, rows * hidden_pitch);
         T* mapped = kept.up ? kept.up + first * hidden_pitch : active;
         T* branch = residual.branch_rows();
-        product<T>(EvenRows<T>{x + first * width, width}, rows, up, hidden,
-                   StoreBiased<T>{mapped, hidden_pitch, bias_up});
+        product<T>(EvenRows<T>{x + first * width, width}, rows, up.weight, hidden,
+                   StoreBiased<T>{mapped, hidden_pitch, up.bias});
         activate(mapped, rows, hidden_pitch, drawn<T>(InnerBits{}, weights.hidden_dropout, n, rows, hidden),
                  active);
-        product<T>(EvenRows<T>{active, hidden_pitch}, rows, down, width,
-                   StoreBiased<T>{branch, residual.pitch(), bias_down});
+        product<T>(EvenRows<T>{active, hidden_pitch}, rows, down.weight, width,
+                   StoreBiased<T>{branch, residual.pitch(), down.bias});
         residual.forward(n, x + first * width, branch, kept.sum ? kept.sum + first * width : nullptr,
                          out + first * width);
     }
@@ -246,49 +214,34 @@ void mlp_norm_backward(const MlpShape& shape, const T* x, const MlpNormWeights<T
                        int threads) {
     const auto width = shape.tokens.width, hidden = shape.hidden, rows = shape.tokens.sample_rows();
     const auto hidden_pitch = shape.hidden_pitch();
-    auto &up = packed_scratch<T>(FirstWeight{}), &down = packed_scratch<T>(SecondWeight{});
-    pack_backward(up, weights.up.weight, hidden, width, threads);
-    pack_backward(down, weights.down.weight, width, hidden, threads);
+    const auto &up = packed_backward(FirstLayer{}, weights.up, hidden, width, threads),
+               &down = packed_backward(SecondLayer{}, weights.down, width, hidden, threads);
     const ResidualNorm<T> residual(weights.post, shape.tokens);
     const auto pitch = residual.pitch();
-    ThreadSums<T> norm_weight(threads, 1, width), norm_bias(threads, 1, width),
-        up_weight(threads, hidden, width), up_sums(threads, 1, hidden), down_weight(threads, width, hidden),
-        down_sums(threads, 1, width);
+    NormSums<T> norm_sums(threads, width);
+    LinearSums<T> up_sums(threads, hidden, width), down_sums(threads, width, hidden);
 #pragma omp parallel num_threads(threads)
     {
-        T *own_norm = norm_weight.own(SumsNormWeight{}), *own_norm_bias = norm_bias.own(SumsNormBias{}),
-          *own_up = up_weight.own(SumsFirst{}), *own_up_bias = up_sums.own(SumsFirstBias{}),
-          *own_down = down_weight.own(SumsSecond{}), *own_down_bias = down_sums.own(SumsSecondBias{});
+        const auto own_norm = norm_sums.own(NormLayer{});
+        const auto own_up = up_sums.own(FirstLayer{}), own_down = down_sums.own(SecondLayer{});
         T* to_branch = scratch<T>(BranchGrad{}, rows * pitch);
         T* active = scratch<T>(ActiveRows{}, rows * hidden_pitch);
         T* inner = scratch<T>(HiddenGrad{}, rows * hidden_pitch);
-        T* panel = scratch<T>(OuterPanel{}, rows * panel_columns<T>);
 #pragma omp for schedule(static)
         for (std::int64_t n = 0; n < shape.tokens.samples; ++n) {
             const auto first = n * rows;
-            const T* from = x + first * width;
             T* to_x = to.x + first * width;
-            residual.backward(n, kept.sum + first * width, grad + first * width, to_x, to_branch, own_norm,
-                              own_norm_bias);
+            residual.backward(n, kept.sum + first * width, grad + first * width, to_x, to_branch, own_norm);
             product<T>(EvenRows<T>{to_branch, pitch}, rows, down, hidden, StorePlain<T>{inner, hidden_pitch});
             activate_backward(kept.up + first * hidden_pitch, rows, hidden_pitch,
                               drawn<T>(InnerBits{}, weights.hidden_dropout, n, rows, hidden), active, inner);
-            add_rows_to(to_branch, pitch, rows, width, own_down_bias);
-            add_rows_to(inner, hidden_pitch, rows, hidden, own_up_bias);
-            add_outer_products<T>(
-                to_branch, pitch, width, [=](std::int64_t r) { return active + r * hidden_pitch; }, hidden,
-                rows, panel, own_down, down_weight.pitch());
-            add_outer_products<T>(
-                inner, hidden_pitch, hidden, [=](std::int64_t r) { return from + r * width; }, width, rows,
-                panel, own_up, up_weight.pitch());
+            own_down.add({to_branch, pitch}, {active, hidden_pitch}, rows);
+            own_up.add({inner, hidden_pitch}, {x + first * width, width}, rows);
             add_product_to(inner, hidden_pitch, rows, up, width, to_x);
         }
-        norm_weight.write(to.norm.weight);
-        norm_bias.write(to.norm.bias);
-        up_weight.write(to.up.weight);
-        up_sums.write(to.up.bias);
-        down_weight.write(to.down.weight);
-        down_sums.write(to.down.bias);
+        norm_sums.write(to.norm);
+        up_sums.write(to.up);
+        down_sums.write(to.down);
     }
 }
 
@@ -320,11 +273,12 @@ void sum_norm_backward(const SumShape& shape, const SumNormWeights<T>& weights, 
     const auto width = shape.tokens.width, rows = shape.tokens.sample_rows();
     const ResidualNorm<T> residual(weights.post, shape.tokens);
     const auto pitch = residual.pitch();
-    ThreadSums<T> norm_weight(threads, 1, width), norm_bias(threads, 1, width), bias(threads, 1, width);
+    NormSums<T> norm_sums(threads, width);
+    ThreadSums<T> bias(threads, 1, width);
 #pragma omp parallel num_threads(threads)
     {
-        T *own_norm = norm_weight.own(SumsNormWeight{}), *own_norm_bias = norm_bias.own(SumsNormBias{}),
-          *own_bias = bias.own(SumsSecondBias{});
+        const auto own_norm = norm_sums.own(NormLayer{});
+        T* own_bias = bias.own(SharedBias{});
         T* to_branch = scratch<T>(BranchGrad{}, rows * pitch);
 #pragma omp for schedule(static)
         for (std::int64_t n = 0; n < shape.tokens.samples; ++n) {
@@ -332,15 +286,14 @@ void sum_norm_backward(const SumShape& shape, const SumNormWeights<T>& weights, 
             T* to_parts = to.parts + n * shape.parts * width;
             const auto kept = drawn<T>(InnerBits{}, weights.parts_dropout, n, rows, shape.parts);
             residual.backward(n, sum + first * width, grad + first * width, to.x + first * width, to_branch,
-                              own_norm, own_norm_bias);
-            add_rows_to(to_branch, pitch, rows, width, own_bias);
+                              own_norm);
+            for (std::int64_t r = 0; r < rows; ++r) add_row(to_branch + r * pitch, width, own_bias);
             std::fill_n(to_parts, shape.parts * width, T(0));
             for (std::int64_t r = 0; r < rows; ++r)
                 for (std::int64_t p = 0; p < shape.parts; ++p)
                     add_scaled(to_branch + r * pitch, kept.share(r, p), width, to_parts + p * width);
         }
-        norm_weight.write(to.norm.weight);
-        norm_bias.write(to.norm.bias);
+        norm_sums.write(to.norm);
         bias.write(to.bias);
     }
 }

@@ -154,25 +154,25 @@ void add_product(Rows<const T> a, const Panels<T>& b, Rows<T> c, std::ptrdiff_t 
     }
 }
 
-/// sums (depth, columns) row-major += the sum over rows of a's `depth` numbers times g's `columns`; both multiples of
-/// lanes<T>.
+/// sums (depth, columns), rows `stride` apart, += the sum over rows of a's `depth` numbers times g's `columns`; both multiples
+/// of lanes<T>.
 template <typename T>
 void add_outer(Rows<const T> a, Rows<const T> g, std::ptrdiff_t frames, std::ptrdiff_t joints,
-               std::ptrdiff_t depth, std::ptrdiff_t columns, T* sums) {
+               std::ptrdiff_t depth, std::ptrdiff_t columns, T* sums, std::ptrdiff_t stride) {
     for (std::ptrdiff_t column = 0; column < columns; column += 4 * lanes<T>) {
         const Rows<const T> right{g.first + column, g.frame, g.row};
         switch (std::min(4 * lanes<T>, columns - column) / lanes<T>) {
             case 1:
-                detail::outer_block<T, 1>(a, right, frames, joints, depth, sums + column, columns);
+                detail::outer_block<T, 1>(a, right, frames, joints, depth, sums + column, stride);
                 break;
             case 2:
-                detail::outer_block<T, 2>(a, right, frames, joints, depth, sums + column, columns);
+                detail::outer_block<T, 2>(a, right, frames, joints, depth, sums + column, stride);
                 break;
             case 3:
-                detail::outer_block<T, 3>(a, right, frames, joints, depth, sums + column, columns);
+                detail::outer_block<T, 3>(a, right, frames, joints, depth, sums + column, stride);
                 break;
             default:
-                detail::outer_block<T, 4>(a, right, frames, joints, depth, sums + column, columns);
+                detail::outer_block<T, 4>(a, right, frames, joints, depth, sums + column, stride);
         }
     }
 }

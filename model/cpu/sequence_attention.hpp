@@ -1,6 +1,8 @@
 // Attention over one sequence at a time: long ones as matrix products, short ones in plain loops.
 #pragma once
 
+#include <cmath>
+
 #include "model/cpu/dropped_rows.hpp"
 #include "model/cpu/kernel_support.hpp"
 #include "model/cpu/transformer_kernels.hpp"

@@ -1,5 +1,8 @@
 #include "model/cpu/spectral_kernel.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "model/cpu/kernel_support.hpp"
 
 namespace actformer::model::cpu {

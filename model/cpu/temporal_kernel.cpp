@@ -1,11 +1,14 @@
 // Temporal convolution: every tap is a product of shifted frames, taken only where the frame is there.
-#include <omp.h>
-
+#include "model/cpu/kernel_support.hpp"
 #include "model/cpu/layer_kernels.hpp"
 #include "model/cpu/row_products.hpp"
 
 namespace actformer::model::cpu {
 namespace {
+
+/// What scratch memory is for.
+struct SumsWeight {};
+struct SumsBias {};
 
 /// Output frames first .. first+count-1, at t, see input frame t * stride + shift through a tap.
 struct Reach {
@@ -56,9 +59,11 @@ std::vector<Panels<T>> pack_transposed(const TemporalShape& shape, const T* weig
     return panels;
 }
 
-/// One sample's share of the weights' gradient, a few frames at a time so that their rows stay in the cache over all taps.
+/// One sample's share of the weights' gradient, a few frames at a time so that their rows stay in the cache over all taps. Rows of
+/// sums (taps*in, out) lie `stride` apart.
 template <typename T>
-void add_weight_gradient(const TemporalShape& shape, const T* x, const T* grad, T* sums) {
+void add_weight_gradient(const TemporalShape& shape, const T* x, const T* grad, T* sums,
+                         std::int64_t stride) {
     const auto joints = shape.input.joints, step = std::max<std::int64_t>(1, 100 / joints);
     for (std::int64_t from = 0; from < shape.out_frames(); from += step)
         for (std::int64_t tap = 0; tap < shape.taps; ++tap) {
@@ -68,7 +73,7 @@ void add_weight_gradient(const TemporalShape& shape, const T* x, const T* grad, 
             if (end <= first) continue;
             reach.first = first;
             add_outer<T>(seen(shape, x, reach), out_rows(shape, grad, first), end - first, joints, shape.in,
-                         shape.out, sums + tap * shape.in * shape.out);
+                         shape.out, sums + tap * shape.in * stride, stride);
         }
 }
 
@@ -97,19 +102,14 @@ void temporal_backward(const TemporalShape& shape, const T* x, const T* weight, 
                        T* grad_weight, T* grad_bias, int threads) {
     const auto panels = pack_transposed(shape, weight);
     const auto joints = shape.input.joints, in_values = shape.input.frames * joints * shape.in;
-    const auto out_values = shape.out_frames() * joints * shape.out,
-               weights = shape.taps * shape.in * shape.out;
-    std::vector<std::vector<T>> weight_sums(static_cast<std::size_t>(threads)),
-        bias_sums(static_cast<std::size_t>(threads));
+    const auto rows = shape.out_frames() * joints;
+    ThreadSums<T> weight_sums(threads, shape.taps * shape.in, shape.out), bias_sums(threads, 1, shape.out);
 #pragma omp parallel num_threads(threads)
     {
-        auto& own_weight = weight_sums[static_cast<std::size_t>(omp_get_thread_num())];
-        auto& own_bias = bias_sums[static_cast<std::size_t>(omp_get_thread_num())];
-        own_weight.assign(static_cast<std::size_t>(weights), T(0));
-        own_bias.assign(static_cast<std::size_t>(shape.out), T(0));
+        T *own_weight = weight_sums.own(SumsWeight{}), *own_bias = bias_sums.own(SumsBias{});
 #pragma omp for schedule(static)
         for (std::int64_t n = 0; n < shape.input.samples; ++n) {
-            const T *from = x + n * in_values, *g = grad + n * out_values;
+            const T *from = x + n * in_values, *g = grad + n * rows * shape.out;
             T* to = grad_x + n * in_values;
             std::fill_n(to, in_values, T(0));
             for (std::int64_t tap = 0; tap < shape.taps; ++tap) {
@@ -117,20 +117,11 @@ void temporal_backward(const TemporalShape& shape, const T* x, const T* weight, 
                 add_product<T>(out_rows(shape, g, reach.first), panels[static_cast<std::size_t>(tap)],
                                seen(shape, to, reach), reach.count, joints);
             }
-            add_weight_gradient(shape, from, g, own_weight.data());
-            for (std::int64_t i = 0; i < out_values; i += shape.out)
-                for (std::int64_t o = 0; o < shape.out; ++o)
-                    own_bias[static_cast<std::size_t>(o)] += g[i + o];
+            add_weight_gradient(shape, from, g, own_weight, weight_sums.pitch());
+            for (std::int64_t r = 0; r < rows; ++r) add_row(g + r * shape.out, shape.out, own_bias);
         }
-    }
-    std::fill_n(grad_weight, weights, T(0));
-    std::fill_n(grad_bias, shape.out, T(0));
-    for (std::size_t thread = 0; thread < weight_sums.size(); ++thread) {
-        if (weight_sums[thread].empty()) continue;  // fewer threads came than were asked for
-        for (std::int64_t i = 0; i < weights; ++i)
-            grad_weight[i] += weight_sums[thread][static_cast<std::size_t>(i)];
-        for (std::int64_t o = 0; o < shape.out; ++o)
-            grad_bias[o] += bias_sums[thread][static_cast<std::size_t>(o)];
+        weight_sums.write(grad_weight);
+        bias_sums.write(grad_bias);
     }
 }
 
