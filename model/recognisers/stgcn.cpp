@@ -1,8 +1,6 @@
 #include "model/recognisers/stgcn.hpp"
 
 #include <cmath>
-#include <functional>
-#include <numeric>
 
 #include "base/error.hpp"
 
@@ -15,39 +13,28 @@ std::uint32_t scaled(std::uint32_t channels, double width) {
     return 16 * static_cast<std::uint32_t>(std::max(1L, std::lround(channels * width / 16)));
 }
 
-Start start_of(TensorRole role) {
+Init init_of(TensorRole role) {
     switch (role) {
         case TensorRole::weight:
         case TensorRole::bias:
-            return Start::uniform;
+            return Init::uniform;
         case TensorRole::offset:
         case TensorRole::running_mean:
-            return Start::zeros;
+            return Init::zeros;
         default:
-            return Start::ones;
+            return Init::ones;
     }
 }
 
 /// Weights and biases of convolutions start uniform within one over the root of the inputs to an output.
-WeightInfo info_of(const eval::StgcnTensor& tensor) {
-    WeightInfo info{tensor.name, {tensor.shape.begin(), tensor.shape.end()}, start_of(tensor.role)};
-    if (info.start == Start::uniform) info.bound = 1 / std::sqrt(static_cast<double>(tensor.fan_in));
-    info.trained = tensor.role != TensorRole::running_mean && tensor.role != TensorRole::running_variance;
-    return info;
-}
-
-std::int64_t trained_under(const std::vector<WeightInfo>& weights, const std::string& prefix) {
-    std::int64_t sum = 0;
-    for (const auto& weight : weights)
-        if (weight.trained && weight.name.starts_with(prefix)) sum += weight.count();
-    return sum;
+NetworkWeight weight_of(const eval::StgcnTensor& tensor) {
+    NetworkWeight weight{tensor.name, {tensor.shape.begin(), tensor.shape.end()}, init_of(tensor.role)};
+    if (weight.init == Init::uniform) weight.scale = 1 / std::sqrt(static_cast<double>(tensor.fan_in));
+    weight.trained = tensor.role != TensorRole::running_mean && tensor.role != TensorRole::running_variance;
+    return weight;
 }
 
 }  // namespace
-
-std::int64_t WeightInfo::count() const {
-    return std::accumulate(shape.begin(), shape.end(), std::int64_t{1}, std::multiplies<>());
-}
 
 eval::StgcnShape shape_of(const StgcnSettings& settings) {
     eval::StgcnShape shape{settings.channels, settings.classes, settings.graph, {}};
@@ -56,10 +43,10 @@ eval::StgcnShape shape_of(const StgcnSettings& settings) {
     return shape;
 }
 
-std::vector<WeightInfo> stgcn_weights(const StgcnSettings& settings) {
-    std::vector<WeightInfo> infos;
-    for (const auto& tensor : eval::stgcn_tensors(shape_of(settings))) infos.push_back(info_of(tensor));
-    return infos;
+std::vector<NetworkWeight> stgcn_weights(const StgcnSettings& settings) {
+    std::vector<NetworkWeight> weights;
+    for (const auto& tensor : eval::stgcn_tensors(shape_of(settings))) weights.push_back(weight_of(tensor));
+    return weights;
 }
 
 std::vector<SummaryLine> stgcn_summary(const StgcnSettings& settings, std::uint32_t frames) {
@@ -70,7 +57,7 @@ std::vector<SummaryLine> stgcn_summary(const StgcnSettings& settings, std::uint3
     lines.push_back({"data_bn",
                      "normalisation of the input",
                      {settings.channels, t, joints},
-                     trained_under(weights, "data_bn.")});
+                     trained_count(weights, "data_bn.")});
     const auto shape = shape_of(settings);
     for (std::size_t i = 0; i < eval::stgcn_layers; ++i) {
         const auto layer = eval::stgcn_layer(shape, i);
@@ -79,16 +66,16 @@ std::vector<SummaryLine> stgcn_summary(const StgcnSettings& settings, std::uint3
             lines.push_back({name, kind, {layer.out, t, joints}, parameters});
         };
         add(prefix + "gcn", "graph convolution, 3 parts",
-            trained_under(weights, prefix + "gcn.") +
-                trained_under(weights, fmt::format("edge_importance.{}", i)));
+            trained_count(weights, prefix + "gcn.") +
+                trained_count(weights, fmt::format("edge_importance.{}", i)));
         t = (t + layer.stride - 1) / layer.stride;
         add(prefix + "tcn", layer.stride == 1 ? "9 frames" : fmt::format("9 frames, stride {}", layer.stride),
-            trained_under(weights, prefix + "tcn."));
+            trained_count(weights, prefix + "tcn."));
         if (layer.residual == eval::StgcnLayer::Residual::convolution)
-            add(prefix + "residual", "shortcut, 1x1", trained_under(weights, prefix + "residual."));
+            add(prefix + "residual", "shortcut, 1x1", trained_count(weights, prefix + "residual."));
     }
     lines.push_back({"mean", "over frames and joints: the features", {shape.features()}, 0});
-    lines.push_back({"fcn", "logits", {settings.classes}, trained_under(weights, "fcn.")});
+    lines.push_back({"fcn", "logits", {settings.classes}, trained_count(weights, "fcn.")});
     return lines;
 }
 

@@ -26,21 +26,8 @@ struct StgcnSettings {
 
 eval::StgcnShape shape_of(const StgcnSettings& settings);
 
-/// How a weight starts.
-enum class Start { uniform, zeros, ones };
-
-struct WeightInfo {
-    std::string name;
-    std::vector<std::int64_t> shape;
-    Start start = Start::uniform;
-    double bound = 0;     ///< uniform in [-bound, bound]
-    bool trained = true;  ///< running means and variances are not
-
-    std::int64_t count() const;
-};
-
 /// Every weight, in the order of the public state_dict's layers.
-std::vector<WeightInfo> stgcn_weights(const StgcnSettings& settings);
+std::vector<NetworkWeight> stgcn_weights(const StgcnSettings& settings);
 
 /// Lines for `actformer model`; shapes are of one motion of `frames` frames.
 std::vector<SummaryLine> stgcn_summary(const StgcnSettings& settings, std::uint32_t frames);

@@ -15,11 +15,12 @@ using Residual = eval::StgcnLayer::Residual;
 
 constexpr double norm_momentum = 0.1, norm_epsilon = 1e-5;
 
-at::Tensor started(const WeightInfo& info, at::Generator& random) {
-    auto weight = at::zeros(info.shape, at::kFloat);
-    if (info.start == Start::ones) weight.fill_(1);
-    if (info.start == Start::uniform) weight.uniform_(-info.bound, info.bound, random);
-    return weight;
+/// Uniform numbers are drawn in float32; a WeightStore, which draws in double, would begin with others.
+at::Tensor started_in_float(const NetworkWeight& weight, at::Generator& random) {
+    auto values = at::zeros(weight.shape, at::kFloat);
+    if (weight.init == Init::ones) values.fill_(1);
+    if (weight.init == Init::uniform) values.uniform_(-weight.scale, weight.scale, random);
+    return values;
 }
 
 /// (3, K, K) float32, whatever the network's type: weights of either meet the same numbers.
@@ -33,14 +34,15 @@ at::Tensor partition_tensor(const eval::Graph& graph) {
 }  // namespace
 
 StgcnNet::StgcnNet(StgcnSettings settings, std::uint64_t seed, const at::Device& device, at::ScalarType type)
-    : settings_(std::move(settings)), shape_(shape_of(settings_)), infos_(stgcn_weights(settings_)) {
+    : settings_(std::move(settings)), shape_(shape_of(settings_)), declared_(stgcn_weights(settings_)) {
     check(settings_);
     partition_ = partition_tensor(settings_.graph).to(device, type);
     edge_index_ = partition_.view(-1).nonzero().view(-1);
     edges_ = partition_.nonzero().to(at::kInt).contiguous();
     auto random = at::make_generator<at::CPUGeneratorImpl>(seed);
-    for (const auto& info : infos_)
-        weights_[info.name] = started(info, random).to(device, type).set_requires_grad(info.trained);
+    for (const auto& weight : declared_)
+        weights_[weight.name] =
+            started_in_float(weight, random).to(device, type).set_requires_grad(weight.trained);
 }
 
 at::Tensor StgcnNet::norm(const at::Tensor& x, const std::string& name, Mode mode) const {
@@ -148,21 +150,21 @@ StgcnNet::Output StgcnNet::eval_forward(const at::Tensor& x) const {
 
 std::vector<at::Tensor> StgcnNet::trained() const {
     std::vector<at::Tensor> parameters;
-    for (const auto& info : infos_)
+    for (const auto& info : declared_)
         if (info.trained) parameters.push_back(weight(info.name));
     return parameters;
 }
 
 std::vector<Array> StgcnNet::arrays() const {
     std::vector<Array> arrays;
-    for (const auto& info : infos_) arrays.push_back(array_of(info.name, weight(info.name)));
+    for (const auto& info : declared_) arrays.push_back(array_of(info.name, weight(info.name)));
     return arrays;
 }
 
 void StgcnNet::load(const std::vector<Array>& arrays, const std::string& where) {
     std::map<std::string, const Array*> by_name;
     for (const auto& array : arrays) by_name[array.name] = &array;
-    for (const auto& info : infos_) {
+    for (const auto& info : declared_) {
         const auto found = by_name.find(info.name);
         if (found == by_name.end()) throw Error("{}: weight {} is missing", where, info.name);
         if (found->second->shape != info.shape)

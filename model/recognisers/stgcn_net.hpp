@@ -32,14 +32,14 @@ class StgcnNet {
     Output eval_forward(const at::Tensor& x) const;
 
     const StgcnSettings& settings() const { return settings_; }
-    const std::vector<WeightInfo>& infos() const { return infos_; }
+    const std::vector<NetworkWeight>& declared() const { return declared_; }
     at::Tensor& weight(const std::string& name) { return weights_.at(name); }
     const at::Tensor& weight(const std::string& name) const { return weights_.at(name); }
 
-    /// What gradients move, sharing memory with the weights, in the order of infos().
+    /// What gradients move, sharing memory with the weights, in the order of declared().
     std::vector<at::Tensor> trained() const;
 
-    /// Every weight, in the order of infos().
+    /// Every weight, in the order of declared().
     std::vector<Array> arrays() const;
 
     /// Throws Error, beginning with `where`, for a weight that is missing or of another shape.
@@ -69,7 +69,7 @@ class StgcnNet {
 
     StgcnSettings settings_;
     eval::StgcnShape shape_;
-    std::vector<WeightInfo> infos_;
+    std::vector<NetworkWeight> declared_;
     std::map<std::string, at::Tensor> weights_;
     at::Tensor partition_;   ///< (3, K, K)
     at::Tensor edges_;       ///< (E, 3) int32: where the partition is not zero, as cpu::Edge

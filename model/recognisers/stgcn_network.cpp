@@ -23,7 +23,7 @@ class StgcnNetwork : public RecogniserNetwork {
     void optimiser_step(double rate) override { sgd_.step(rate); }
 
     bool finite() override {
-        for (const auto& info : net_.infos())
+        for (const auto& info : net_.declared())
             if (!at::isfinite(net_.weight(info.name)).all().item<bool>()) return false;
         return true;
     }

@@ -27,13 +27,6 @@ class List {
     std::vector<NetworkWeight> weights_;
 };
 
-std::int64_t count_under(const std::vector<NetworkWeight>& weights, const std::string& prefix) {
-    std::int64_t sum = 0;
-    for (const auto& weight : weights)
-        if (weight.name.starts_with(prefix)) sum += weight.count();
-    return sum;
-}
-
 }  // namespace
 
 std::vector<NetworkWeight> weights_of(const Settings& s) {
@@ -57,7 +50,7 @@ std::vector<NetworkSummary> summary(const Settings& s) {
     const std::int64_t frames = s.frames, hidden = s.hidden, latent = s.latent;
     const auto of_frames = [&](const std::string& net, std::vector<SummaryLine> lines) {
         for (auto& line : lines) {
-            line.parameters = count_under(weights, net + "." + line.layer + ".");
+            line.parameters = trained_count(weights, net + "." + line.layer + ".");
             line.shape.insert(line.shape.begin(), frames);
         }
         return NetworkSummary{net, std::move(lines)};

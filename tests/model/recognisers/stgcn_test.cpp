@@ -38,13 +38,13 @@ at::Tensor random_input(const StgcnSettings& s, std::int64_t samples, std::int64
 /// Weights away from their starting points, so that every one of them matters.
 void stir(StgcnNet& net) {
     const at::NoGradGuard no_gradients;
-    for (const auto& info : net.infos()) {
+    for (const auto& info : net.declared()) {
         auto& weight = net.weight(info.name);
         if (info.name.ends_with("running_var"))
             weight.uniform_(0.5, 1.5);
-        else if (info.start == Start::ones)
+        else if (info.init == Init::ones)
             weight.normal_(1, 0.1);
-        else if (info.start == Start::zeros)
+        else if (info.init == Init::zeros)
             weight.normal_(0, 0.1);
     }
 }
@@ -190,7 +190,7 @@ TEST(Stgcn, BothPathsTrainAlike) {
     const auto labels = at::arange(4, at::kLong);
     for (auto* net : {&fused, &plain})
         at::cross_entropy_loss(net->train_forward(x, 1).logits, labels).backward();
-    for (const auto& info : fused.infos()) {
+    for (const auto& info : fused.declared()) {
         const auto &ours = fused.weight(info.name), &torchs = plain.weight(info.name);
         if (info.trained)
             EXPECT_TRUE(at::allclose(ours.grad(), torchs.grad(), 1e-7, 1e-9)) << info.name;
@@ -235,7 +235,7 @@ TEST(Stgcn, AgreesWithTheOracleBothWays) {
     StgcnNet net(settings, 0);
     const hdf5::Reader file(dir / "w.h5");
     std::vector<Array> arrays;
-    for (const auto& info : net.infos()) {
+    for (const auto& info : net.declared()) {
         const auto shape = file.shape(info.name);
         arrays.push_back({info.name, {shape.begin(), shape.end()}, file.read<float>(info.name)});
     }
