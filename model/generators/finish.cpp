@@ -13,6 +13,17 @@ at::Tensor orthonormal(const at::Tensor& x) {
     return at::cat({first, unit(second - (first * second).sum(-1, true) * first)}, -1);
 }
 
+/// `normal` with the free node's position as `numbers` have it, and 0 behind it; both (..., K, D).
+at::Tensor with_position(const at::Tensor& normal, const at::Tensor& numbers,
+                         ingest::Representation representation) {
+    const auto nodes = numbers.size(-2), behind = numbers.size(-1) - 3;
+    const auto free_node = representation.free_node(static_cast<std::uint32_t>(nodes));
+    if (!free_node) return normal;
+    const std::int64_t free = *free_node;
+    const auto position = at::constant_pad_nd(numbers.slice(-2, free, free + 1).slice(-1, 0, 3), {0, behind});
+    return at::cat({normal.slice(-2, 0, free), position, normal.slice(-2, free + 1, nodes)}, -2);
+}
+
 }  // namespace
 
 at::Tensor normalised(const at::Tensor& numbers, ingest::Finish finish) {
@@ -27,14 +38,17 @@ at::Tensor normalised(const at::Tensor& numbers, ingest::Finish finish) {
     return numbers;
 }
 
-at::Tensor with_position(const at::Tensor& normal, const at::Tensor& numbers,
-                         ingest::Representation representation) {
-    const auto nodes = numbers.size(-2), behind = numbers.size(-1) - 3;
-    const auto free_node = representation.free_node(static_cast<std::uint32_t>(nodes));
-    if (!free_node) return normal;
-    const std::int64_t free = *free_node;
-    const auto position = at::constant_pad_nd(numbers.slice(-2, free, free + 1).slice(-1, 0, 3), {0, behind});
-    return at::cat({normal.slice(-2, 0, free), position, normal.slice(-2, free + 1, nodes)}, -2);
+at::Tensor finished(const at::Tensor& numbers, ingest::Representation representation) {
+    return with_position(normalised(numbers, representation.finish()), numbers, representation);
+}
+
+at::Tensor bounded_finish(const at::Tensor& numbers, ingest::Representation representation) {
+    if (representation.finish() == ingest::Finish::linear) return numbers;
+    return with_position(normalised(numbers.tanh(), representation.finish()), numbers, representation);
+}
+
+at::Tensor motion_layout(const at::Tensor& poses) {
+    return poses.permute({0, 1, 4, 2, 3}).flatten(1, 2);
 }
 
 }  // namespace actformer::model

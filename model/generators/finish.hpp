@@ -10,13 +10,13 @@ namespace actformer::model {
 /// numbers (..., K, D): limbs divided by (length + 1e-4), rotations made orthonormal by Gram and Schmidt.
 at::Tensor normalised(const at::Tensor& numbers, ingest::Finish finish);
 
-/// `normal` with the free node's position as `numbers` have it, and 0 behind it; both (..., K, D).
-at::Tensor with_position(const at::Tensor& normal, const at::Tensor& numbers,
-                         ingest::Representation representation);
+/// A network's numbers (..., K, D) as a motion's: normalised, but the free node has its position as they are, and 0 behind it.
+at::Tensor finished(const at::Tensor& numbers, ingest::Representation representation);
 
-/// Both: a network's numbers (..., K, D) as a motion's.
-inline at::Tensor finished(const at::Tensor& numbers, ingest::Representation representation) {
-    return with_position(normalised(numbers, representation.finish()), numbers, representation);
-}
+/// The same of tanh of the numbers, the free node's apart; where nothing is normalised, the numbers as they are.
+at::Tensor bounded_finish(const at::Tensor& numbers, ingest::Representation representation);
+
+/// poses (N, P, T, K, D) -> motion (N, P*D, T, K).
+at::Tensor motion_layout(const at::Tensor& poses);
 
 }  // namespace actformer::model

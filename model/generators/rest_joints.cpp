@@ -88,10 +88,8 @@ at::Tensor RestJoints::positions_in(const at::Tensor& motion) const {
     const auto by_person =
         motion.reshape({n, -1, cpu::rotation_numbers, t, joints + 1}).permute({0, 1, 3, 4, 2});
     const auto persons = by_person.size(1);
-    return positions(by_person.flatten(0, 2).slice(1, 0, joints))
-        .view({n, persons, t, joints, 3})
-        .permute({0, 1, 4, 2, 3})
-        .reshape({n, persons * 3, t, joints});
+    return motion_layout(
+        positions(by_person.flatten(0, 2).slice(1, 0, joints)).view({n, persons, t, joints, 3}));
 }
 
 at::Tensor RestJoints::error(const at::Tensor& made, const at::Tensor& real) const {

@@ -144,13 +144,10 @@ at::Tensor ActFormerGenerator::motion(const at::Tensor& x) const {
         settings_.tokens_a_frame() == settings_.persons)
         return fused_poses(x, weights_.layer("norm", is_training()), weights_.layer("head", is_training()),
                            settings_.representation);
-    const auto n = x.size(0), t = x.size(2) - 1;
     const auto normal =
         at::layer_norm(x.slice(2, 1), {settings_.width}, weights_.normalised("norm.weight", is_training()),
                        weights_.at("norm.bias"), norm_epsilon);
-    const auto finished = this->finished(poses(normal));  // (N, P, T, K, D)
-    return finished.permute({0, 1, 4, 2, 3})
-        .reshape({n, settings_.persons * settings_.numbers(), t, settings_.nodes()});
+    return motion_layout(bounded_finish(poses(normal), settings_.representation));
 }
 
 /// `motion` (N, P*D, T, K) with each body moved to where its neighbouring frames' mean is, weighed by a Gaussian. At either end the path
@@ -203,13 +200,6 @@ at::Tensor ActFormerGenerator::poses(const at::Tensor& x) const {
     const auto each = head.weight.view({nodes, numbers, -1}).transpose(1, 2);  // (K, fine, D)
     const auto raw = at::matmul(y.unsqueeze(-2), each).squeeze(-2) + head.bias.view({nodes, numbers});
     return raw.view({n, settings_.persons, t, nodes, numbers});
-}
-
-/// What the representation makes of the head's numbers (N, P, T, K, D), bent by tanh; the free node keeps its position.
-at::Tensor ActFormerGenerator::finished(const at::Tensor& poses) const {
-    const auto& how = settings_.representation;
-    if (how.finish() == ingest::Finish::linear) return poses;
-    return with_position(normalised(poses.tanh(), how.finish()), poses, how);
 }
 
 /// The EMA's singular vectors are close to those of the last weights: a few power iterations from there find them.

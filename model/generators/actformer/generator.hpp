@@ -47,7 +47,6 @@ class ActFormerGenerator : public GanGenerator {
     at::Tensor positions() const;
     at::Tensor block(const at::Tensor& x, const std::string& prefix) const;
     at::Tensor poses(const at::Tensor& x) const;
-    at::Tensor finished(const at::Tensor& poses) const;
     at::Tensor graph_layer(const at::Tensor& x, const std::string& name, const at::Tensor& sums) const;
 
     ActFormerGeneratorSettings settings_;

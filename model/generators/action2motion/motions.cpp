@@ -26,8 +26,7 @@ at::Tensor MotionNumbers::motions(const at::Tensor& poses) const {
     const auto of_nodes = (limbs_of_bends ? limbs_of_joints(settings_.topology, poses) : poses)
                               .view({t, n, nodes, persons, numbers});
     const auto by_person = of_nodes.permute({1, 3, 0, 2, 4});  // (N, P, T, K, D)
-    const auto done = limbs_of_bends ? by_person : finished(by_person, settings_.representation);
-    return done.permute({0, 1, 4, 2, 3}).reshape({n, persons * numbers, t, nodes});
+    return motion_layout(limbs_of_bends ? by_person : finished(by_person, settings_.representation));
 }
 
 at::Tensor MotionNumbers::bones(std::int64_t motions) const {

@@ -48,9 +48,8 @@ class ActorMaker : public Maker {
         const auto numbers = net_.decode(latent.to(device_), labels.to(device_), frames);
         const std::int64_t t = frames, persons = settings_.persons, nodes = settings_.nodes;
         const auto motion =
-            finished(numbers.reshape({batch(), persons, -1, t, nodes}).permute({0, 1, 3, 4, 2}),
-                     settings_.representation)
-                .permute({0, 1, 4, 2, 3})
+            motion_layout(finished(numbers.reshape({batch(), persons, -1, t, nodes}).permute({0, 1, 3, 4, 2}),
+                                   settings_.representation))
                 .to(at::kCPU)
                 .contiguous();
         const auto* first = motion.data_ptr<float>();

@@ -65,11 +65,7 @@ at::Tensor CsgnGenerator::motions(const at::Tensor& x, std::int64_t frames, bool
                          .slice(2, (made - frames) / 2, (made - frames) / 2 + frames)
                          .view({n, nodes, frames, persons, numbers})
                          .permute({0, 3, 2, 1, 4});  // (N, P, T, K, D)
-    const auto how = settings_.representation;
-    const auto poses = how.finish() == ingest::Finish::linear
-                           ? raw
-                           : with_position(normalised(raw.tanh(), how.finish()), raw, how);
-    return poses.permute({0, 1, 4, 2, 3}).reshape({n, persons * numbers, frames, nodes});
+    return motion_layout(bounded_finish(raw, settings_.representation));
 }
 
 at::Tensor CsgnGenerator::generate(const at::Tensor& latent, const at::Tensor& labels, std::int64_t frames) {
