@@ -49,7 +49,7 @@ void add_optimiser_keys(RecogniserKeys& table) {
     add_weight_decay_key(table);
     table.add(&RecogniserSettings::precision,
               {.name = "precision",
-               .meaning = "float32, or float64, slower, where rounding decides next to nothing",
+               .meaning = "of training: float32, or float64, which is slower and rounds next to nothing",
                .choices = {"float32", "float64"}});
 }
 
@@ -61,8 +61,8 @@ void add_training_keys(RecogniserKeys& table) {
     table.add(
         &RecogniserSettings::noise,
         {.name = "noise",
-         .meaning = "deviation of what is added to all numbers to learn from, so that jitter nobody sees "
-                    "decides nothing; 0 as published",
+         .meaning =
+             "standard deviation of Gaussian noise added to the training input; 0 for none, as published",
          .least = 0,
          .most = 10});
     add_trainer_keys(table);

@@ -29,7 +29,7 @@ struct RecogniserSettings : TrainerSettings, AugmentationSettings {
     std::uint32_t persons = 0, classes = 0;  ///< 0: as the dataset has them
     std::string joints = "own";  ///< or "common15", those that skeletons of several datasets share
     double width = 1, dropout = 0.5;
-    double noise = 0;  ///< deviation of what is added to all numbers to learn from; 0 as published
+    double noise = 0;  ///< standard deviation of Gaussian noise added to the training input; 0 for none
     std::uint32_t frames = 60;
     double rate = 0.1, momentum = 0.9, weight_decay = 1e-4;
     bool nesterov = true;

@@ -12,8 +12,7 @@ namespace actformer::model {
 struct TrainerSettings {
     std::string data, train_split = "all";
     std::uint32_t batch = 64, epochs = 1;  ///< batch: windows, of each process
-    std::vector<std::int64_t>
-        rate_drops;  ///< epochs, from 0, at whose start the rates are multiplied by rate_factor
+    std::vector<std::int64_t> rate_drops;  ///< epochs done before the rates are multiplied by rate_factor
     double rate_factor = 1;
     double checkpoint_minutes = 5;
     bool tensorboard = false;  ///< curves for TensorBoard beside the log
@@ -46,16 +45,17 @@ void add_trainer_keys(KeyTable<Settings>& table) {
                                  .free = true})
         .add(&Settings::rate_drops,
              {.name = "rate_drops",
-              .meaning = "epochs at whose start learning rates are multiplied by rate_factor",
+              .meaning = "epochs done before each drop of the learning rates, as in [10, 50]",
               .least = 0,
               .most = 1e9})
         .add(&Settings::rate_factor,
-             {.name = "rate_factor", .meaning = "see rate_drops", .least = 0, .most = 1})
-        .add(&Settings::checkpoint_minutes, {.name = "checkpoint_minutes",
-                                             .meaning = "between checkpoints; 0 keeps every step",
-                                             .least = 0,
-                                             .most = 1e6,
-                                             .free = true})
+             {.name = "rate_factor", .meaning = "by which a drop multiplies them", .least = 0, .most = 1})
+        .add(&Settings::checkpoint_minutes,
+             {.name = "checkpoint_minutes",
+              .meaning = "between checkpoints; 0 saves as often as losses are read",
+              .least = 0,
+              .most = 1e6,
+              .free = true})
         .add(&Settings::tensorboard, {.name = "tensorboard",
                                       .meaning = "keep the curves as TensorBoard reads them, too",
                                       .free = true})
