@@ -2,6 +2,8 @@
 #pragma once
 
 #include <ATen/autocast_mode.h>
+#include <c10/core/DispatchKeySet.h>
+#include <c10/core/impl/LocalDispatchKeySet.h>
 #include <torch/version.h>
 
 namespace actformer::model {
@@ -30,6 +32,12 @@ class Autocast {
 #endif
     }
     bool on_;
+};
+
+/// Within an Autocast: operators keep their arguments' types, as far as the scope reaches.
+class NoAutocast {
+  private:
+    c10::impl::ExcludeDispatchKeyGuard guard_{c10::autocast_dispatch_keyset};
 };
 
 }  // namespace actformer::model

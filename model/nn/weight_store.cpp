@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "model/nn/autocast.hpp"
+
 namespace actformer::model {
 namespace {
 
@@ -136,6 +138,7 @@ at::Tensor WeightStore::normalised(const std::string& name, bool iterate) const 
     const auto& entry = entries_.at(name);
     if (entry.rows == 0) return entry.weight;
     if (fused && entry.weight.is_cpu()) return fused_spectral(entry.weight, entry.u, entry.v, iterate);
+    const NoAutocast float32;  // a power iteration in bfloat16 finds two digits of the norm
     const auto matrix = entry.weight.view({entry.rows, -1});
     auto u = entry.u, v = entry.v;
     if (iterate) {
