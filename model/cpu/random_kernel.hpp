@@ -38,7 +38,7 @@ struct Dropout {
     std::uint64_t seed() const;       ///< for a generator that draws a batch's part in one go
 };
 
-/// Numbers are told of by bits, 16 a word, the first the lowest; a row of them begins with a word.
+/// A mask has a bit a number, 16 a word, the first number's the lowest; every row begins with a word.
 constexpr std::int64_t numbers_a_word = 16;
 
 inline std::int64_t words_for(std::int64_t columns) {

@@ -9,8 +9,6 @@
 namespace actformer::model {
 namespace {
 
-constexpr std::uint64_t scoring_draws = 2;  // of step_seed: neither the latents' nor the discriminator's
-
 std::vector<std::uint32_t> classes_of(const kernels::ClipStore& clips) {
     const auto& labels = clips.table().labels;
     const std::set<std::uint32_t> each(labels.begin(), labels.end());
@@ -38,7 +36,7 @@ std::string GeneratorValidator::fingerprint() const {
 
 Labelled GeneratorValidator::motions_of(const std::vector<Array>& weights) const {
     const auto maker = method_named(config_.model(), spec_.where).maker(config_, spec_, weights, device_);
-    const auto seed = step_seed(settings_.seed, scoring_draws);
+    const auto seed = step_seed(settings_.seed, scoring_part);
     const auto batch = maker->batch(), wanted = settings_.score_per_class;
     Labelled all;
     for (const auto label : classes_)

@@ -236,7 +236,7 @@ variable_list pose_gradients(const PoseTensors& poses, const StackGradients& sta
     return out;
 }
 
-/// Outputs and joints; without a bent body the joints are the outputs' own sum with nothing: an empty tensor.
+/// Outputs and joints' positions; without forward kinematics the latter is an empty tensor.
 struct FedBackPoses : Function<FedBackPoses> {
     static variable_list forward(AutogradContext* context, at::TensorList tensors, const at::Tensor& weight,
                                  const at::Tensor& head, const at::Tensor& head_bias, const at::Tensor& bend,

@@ -25,8 +25,8 @@ at::Tensor RecogniserLearner::values_of(const Windows& windows) const {
         .to(torch_type(settings_.precision));
 }
 
-/// The input's normalisation divides by deviations: of joints that no recording moves (those that a skeleton has and its recordings
-/// have not) it makes a hundredfold of any number that is not theirs. With noise it has deviations to divide by.
+/// Joints that never move have a variance near 0, so batch normalisation amplifies any deviation about a hundredfold; noise gives
+/// them a variance.
 at::Tensor RecogniserLearner::noisy(const at::Tensor& motion, std::uint64_t seed) const {
     if (settings_.noise == 0) return motion;
     auto random = at::make_generator<at::CPUGeneratorImpl>(step_seed(seed, 1));

@@ -19,6 +19,10 @@ namespace actformer::model {
 /// A well-mixed number for what is random in step `step`.
 std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step);
 
+/// What step_seed() takes for a step where a generator's training draws for these parts; its generator's weights take the training's seed
+/// itself. Scoring may share augmentation's number: it draws latents by what comes out, while augmentation mixes that with its own steps.
+constexpr std::uint64_t latents_part = 0, discriminator_part = 1, augmentation_part = 2, scoring_part = 2;
+
 /// Throws Error where this libtorch cannot work on `name`, as in "cpu" or "cuda:1"; `option` is what the user names it with.
 at::Device torch_device(const std::string& name, const std::string& option = "device=");
 

@@ -16,8 +16,8 @@ constexpr double runaway = 1e6;
 std::string collapse_in(const GanLosses& l, Loss loss) {
     if (loss == Loss::hinge && l.discriminator < certain)
         return fmt::format(
-            "the discriminator's loss is {:.2g}: it tells real from generated for certain, and "
-            "nobody learns any more",
+            "the discriminator's loss is {:.2g}: it tells real from generated for certain, and its gradient "
+            "has vanished",
             l.discriminator);
     if (std::abs(l.real_score - l.fake_score) < indistinct)
         return "the discriminator gives every motion the same score";

@@ -41,9 +41,6 @@ struct GanNetworks {
     std::shared_ptr<GanDiscriminator> discriminator;
 };
 
-/// What step_seed() makes of a training's seed for the parts of a GAN; the generator's is the seed itself.
-constexpr std::uint64_t latents_part = 0, discriminator_part = 1, augmentation_part = 2;
-
 /// Networks of these settings on `device`, their weights as the training's seed has them.
 template <typename Generator, typename Discriminator, typename GeneratorSettings,
           typename DiscriminatorSettings>

@@ -5,7 +5,7 @@
 namespace actformer::model {
 namespace {
 
-/// Below it, in metres or as a share of a rotation matrix's column, a number stands still.
+/// Below it a number stands still: in metres, or in parts of a unit limb vector or of a row of a rotation matrix.
 constexpr double least_spread = 1e-3;
 
 }  // namespace
