@@ -8,7 +8,7 @@
 #include "model/generators/generator_file.hpp"
 #include "model/nn/blas.hpp"
 #include "model/nn/one_line.hpp"
-#include "model/train/training.hpp"
+#include "model/train/torch_device.hpp"
 
 namespace actformer::model {
 namespace {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "base/threads/thread.hpp"
-#include "model/train/training.hpp"
+#include "model/train/step_seed.hpp"
 
 namespace actformer::model {
 namespace {

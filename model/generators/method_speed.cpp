@@ -16,7 +16,8 @@
 #include "model/nn/blas.hpp"
 #include "model/nn/cuda_graph.hpp"
 #include "model/train/learner.hpp"
-#include "model/train/training.hpp"
+#include "model/train/torch_device.hpp"
+#include "model/train/training_data.hpp"
 
 namespace actformer::model {
 namespace {

@@ -8,8 +8,9 @@
 #include "model/generators/generator_validator.hpp"
 #include "model/nn/blas.hpp"
 #include "model/nn/one_line.hpp"
+#include "model/train/torch_device.hpp"
 #include "model/train/trainer.hpp"
-#include "model/train/training.hpp"
+#include "model/train/training_data.hpp"
 
 namespace actformer::model {
 namespace {

@@ -2,7 +2,9 @@
 
 #include <ATen/CPUGeneratorImpl.h>
 
-#include "model/train/training.hpp"
+#include "model/train/step_seed.hpp"
+#include "model/train/torch_device.hpp"
+#include "model/train/window_tensors.hpp"
 
 namespace actformer::model {
 

@@ -5,7 +5,7 @@
 #include "model/nn/tensor_array.hpp"
 #include "model/recognisers/network.hpp"
 #include "model/recognisers/stgcn_net.hpp"
-#include "model/train/training.hpp"
+#include "model/train/torch_device.hpp"
 
 namespace actformer::model {
 namespace {

@@ -12,8 +12,9 @@
 #include "model/nn/one_line.hpp"
 #include "model/recognisers/learner.hpp"
 #include "model/recognisers/stgcn_file.hpp"
+#include "model/train/torch_device.hpp"
 #include "model/train/trainer.hpp"
-#include "model/train/training.hpp"
+#include "model/train/training_data.hpp"
 
 namespace actformer::model {
 namespace {

@@ -4,8 +4,11 @@
 #include "eval/metrics/confusion.hpp"
 #include "ingest/dataset/view.hpp"
 #include "model/recognisers/recogniser_settings.hpp"
-#include "model/train/training.hpp"
+#include "model/train/step_seed.hpp"
+#include "model/train/torch_device.hpp"
+#include "model/train/training_data.hpp"
 #include "model/train/window_feed.hpp"
+#include "model/train/window_tensors.hpp"
 #include "tests/support/lessons.hpp"
 
 namespace actformer::test {

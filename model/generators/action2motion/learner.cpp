@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "model/cpu/random_kernel.hpp"
-#include "model/train/training.hpp"
+#include "model/train/window_tensors.hpp"
 
 namespace actformer::model::action2motion {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "model/cpu/random_kernel.hpp"
 #include "model/nn/module_arrays.hpp"
-#include "model/train/training.hpp"
+#include "model/train/torch_device.hpp"
 
 namespace actformer::model::action2motion {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "model/train/training.hpp"
+#include "model/train/window_tensors.hpp"
 
 namespace actformer::model {
 namespace {

@@ -8,7 +8,7 @@
 #include "model/generators/actor/public_weights.hpp"
 #include "model/generators/finish.hpp"
 #include "model/nn/module_arrays.hpp"
-#include "model/train/training.hpp"
+#include "model/train/torch_device.hpp"
 
 namespace actformer::model {
 namespace {

@@ -6,7 +6,7 @@
 #include "model/generators/adversarial/spread.hpp"
 #include "model/nn/autocast.hpp"
 #include "model/nn/module_arrays.hpp"
-#include "model/train/training.hpp"
+#include "model/train/step_seed.hpp"
 
 namespace actformer::model {
 namespace {

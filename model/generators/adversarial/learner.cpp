@@ -2,7 +2,7 @@
 
 #include "model/generators/adversarial/collapse.hpp"
 #include "model/nn/module_arrays.hpp"
-#include "model/train/training.hpp"
+#include "model/train/window_tensors.hpp"
 
 namespace actformer::model {
 namespace {

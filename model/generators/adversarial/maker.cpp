@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "model/nn/module_arrays.hpp"
+#include "model/train/torch_device.hpp"
 
 namespace actformer::model {
 

@@ -7,7 +7,7 @@
 
 #include "model/generators/adversarial/gan_settings.hpp"
 #include "model/generators/adversarial/prior.hpp"
-#include "model/train/training.hpp"
+#include "model/train/step_seed.hpp"
 
 namespace actformer::model {
 

@@ -1,4 +1,4 @@
-#include "model/train/training.hpp"
+#include "model/train/torch_device.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,58 +1,13 @@
-#include "model/train/training.hpp"
+#include "model/train/training_data.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "base/error.hpp"
-#include "base/random/splitmix.hpp"
 #include "base/text/suggestion.hpp"
+#include "model/train/window_feed.hpp"
 
 namespace actformer::model {
-namespace {
-
-/// To a GPU by way of memory that it can read while the processor goes on.
-at::Tensor sent(const at::Tensor& values, const at::Device& device) {
-    if (device.is_cpu()) return values;
-    return values.pin_memory().to(device, values.scalar_type(), /*non_blocking=*/true);
-}
-
-}  // namespace
-
-std::uint64_t step_seed(std::uint64_t seed, std::uint64_t step) {
-    return mixed(seed * golden_step + step + 1);
-}
-
-at::Device torch_device(const std::string& name, const std::string& option) {
-    try {
-        const at::Device device(name);
-        at::zeros({1}, at::TensorOptions().device(device));
-        return device;
-    } catch (const std::exception&) {
-        if (name.starts_with("cuda") && !at::Context::hasCUDART())
-            throw Error(
-                "device {}: this libtorch was built without CUDA; {}cpu always works, and docs/gpu.md tells "
-                "how to build with one that has it",
-                name, option);
-        throw Error("device {}: libtorch finds none of that name here; {}cpu always works", name, option);
-    }
-}
-
-void set_tf32_and_determinism(const TrainerSettings& settings, const at::Device& device) {
-    if (settings.tf32 && !device.is_cuda())
-        throw Error("tf32: true is for CUDA; with device: {}, leave it out", settings.device);
-    auto& context = at::globalContext();
-    context.setAllowTF32CuBLAS(settings.tf32);
-    context.setAllowTF32CuDNN(settings.tf32);
-    if (!device.is_cuda()) return;
-    if (settings.deterministic)
-        ::setenv("CUBLAS_WORKSPACE_CONFIG", ":4096:8", 0);  // before cuBLAS begins, as it demands
-    context.setDeterministicAlgorithms(settings.deterministic, /*warn_only=*/false);
-    context.setDeterministicCuDNN(settings.deterministic);
-}
-
-at::ScalarType torch_type(const std::string& precision) {
-    return precision == "float64" ? at::kDouble : at::kFloat;
-}
 
 ingest::Dataset dataset_to_train_on(const std::string& data) {
     if (data.empty()) throw Error("no dataset: give --data DATASET, or data: in the configuration");
@@ -99,17 +54,6 @@ void tell_split(const ingest::Dataset& dataset, const TrainerSettings& settings,
             fmt::format("{} has a split train, and this training takes all clips; train_split=train keeps "
                         "the others to test on",
                         dataset.folder().string()));
-}
-
-at::Tensor values_of(const Windows& windows, std::int64_t channels, std::int64_t frames, std::int64_t joints,
-                     const at::Device& device) {
-    return sent(at::from_blob(windows.values, {windows.count, channels, frames, joints}, at::kFloat), device);
-}
-
-at::Tensor labels_of(const Windows& windows, const at::Device& device) {
-    auto labels = at::empty({windows.count}, at::kLong);
-    std::copy_n(windows.labels, windows.count, labels.data_ptr<std::int64_t>());
-    return sent(labels, device);
 }
 
 }  // namespace actformer::model
