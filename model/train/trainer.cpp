@@ -8,6 +8,7 @@
 #include "model/train/checkpoint.hpp"
 #include "model/train/divergence.hpp"
 #include "model/train/run_folder.hpp"
+#include "model/train/validations.hpp"
 
 namespace actformer::model {
 namespace {
@@ -17,18 +18,6 @@ using Json = nlohmann::ordered_json;
 
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-Json json_of(const ValidationReport& report) {
-    return {{"epoch", report.epoch}, {"step", report.step}, {"values", report.values}};
-}
-
-ValidationReport report_from(const Json& json) {
-    ValidationReport report;
-    report.epoch = json.at("epoch");
-    report.step = json.at("step");
-    report.values = json.at("values");
-    return report;
 }
 
 class Loop {
@@ -43,7 +32,6 @@ class Loop {
         if (events_.note && leads()) events_.note(line);
     }
     void resume();
-    void resume_scores(const Json& state);
     void compare_data(const Json& state) const;
     void share();
     std::vector<double> read_sums();
@@ -72,7 +60,7 @@ class Loop {
     const TrainerSettings& settings_;
     Learner& learner_;
     const Processes& processes_;
-    Validator* validator_;
+    Validations validations_;
     const TrainingEvents& events_;
     const SafePoints& safe_points_;
     std::unique_ptr<RunFolder> folder_;  ///< of rank 0
@@ -84,10 +72,6 @@ class Loop {
     std::uint64_t timed_from_ = 0;
     std::optional<std::uint64_t> kept_step_;  ///< of the newest checkpoint; none before there is one
     double epoch_seconds_ = 0;                ///< spent on the running epoch by earlier calls
-    std::optional<ValidationReport> best_, last_;
-    std::optional<std::vector<Array>>
-        unsaved_best_;  ///< weights that could not be written when they were the best
-    double best_selection_score_ = 0;
 };
 
 Loop::Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup, Validator* validator,
@@ -96,7 +80,7 @@ Loop::Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup
       settings_(task.settings),
       learner_(learner),
       processes_(setup.processes),
-      validator_(validator),
+      validations_(validator),
       events_(events),
       safe_points_(safe_points) {
     windows_a_step_ = learner.windows_a_step() * static_cast<std::uint64_t>(processes_.place().size);
@@ -151,7 +135,9 @@ void Loop::resume() {
         const auto sums = state.at("sums").get<std::vector<double>>();
         for (std::size_t i = 0; i < sums.size(); ++i) learner_.sums()[static_cast<std::int64_t>(i)] = sums[i];
         epoch_seconds_ = state.at("seconds");
-        resume_scores(state);
+        if (!validations_.take_from(state))
+            say("the scores so far are of another recogniser or of other numbers of motions: the best "
+                "weights are chosen from now on");
         if (epoch() > settings_.epochs)
             say(fmt::format("{} epochs are done, more than epochs={}: nothing is left to train", epoch(),
                             settings_.epochs));
@@ -162,19 +148,6 @@ void Loop::resume() {
                             settings_.epochs));
     }
     folder_->rewind_log(epoch());
-}
-
-void Loop::resume_scores(const Json& state) {
-    if (!validator_ || !state.contains("best")) return;
-    if (state.at("scorer") != validator_->fingerprint()) {
-        say("the scores so far are of another recogniser or of other numbers of motions: the best weights "
-            "are chosen from now on");
-        return;
-    }
-    best_ = report_from(state.at("best"));
-    best_->best = true;
-    best_selection_score_ = state.at("best").at("merit");
-    if (state.contains("last")) last_ = report_from(state.at("last"));
 }
 
 /// What rank 0 found in the folder, to all.
@@ -236,25 +209,16 @@ void Loop::end_epoch() {
 }
 
 void Loop::begin_validation(EpochReport& report) {
-    if (!validator_ || !validator_->due(report.epoch, report.epoch == settings_.epochs)) return;
+    if (!validations_.due(report.epoch, report.epoch == settings_.epochs)) return;
     log_later_validation();
-    validator_->begin(report.epoch, step_);
-    if (!validator_->in_background()) report.scores = end_validation();
+    validations_.begin(report.epoch, step_);
+    if (!validations_.in_background()) report.scores = end_validation();
 }
 
 /// Waits for the scores on their way, if there are any, and keeps the best one's weights.
 std::optional<ValidationReport> Loop::end_validation() {
-    auto validation = validator_ ? validator_->end() : std::nullopt;
-    if (!validation) return std::nullopt;
-    auto& report = validation->report;
-    report.best = !best_ || validation->selection_score > best_selection_score_;
-    last_ = report;
-    if (report.best) {
-        best_ = report;
-        best_selection_score_ = validation->selection_score;
-        unsaved_best_ = std::move(validation->weights);
-        try_writing([this] { save_best(); });
-    }
+    auto report = validations_.end();
+    if (report && report->best) try_writing([this] { save_best(); });
     return report;
 }
 
@@ -289,12 +253,7 @@ Json Loop::state_now() {
                {"seed", settings_.seed},  // with the steps done, all there is to the random numbers' state
                {"sums", sums_},
                {"seconds", epoch_seconds_ + seconds_since(epoch_start_)}};
-    if (validator_) state["scorer"] = validator_->fingerprint();
-    if (best_) {
-        state["best"] = json_of(*best_);
-        state["best"]["merit"] = best_selection_score_;
-    }
-    if (last_) state["last"] = json_of(*last_);
+    validations_.add_to(state);
     return state;
 }
 
@@ -309,9 +268,9 @@ void Loop::try_writing(const std::function<void()>& write) const {
 
 /// The best weights, where those in the folder are others.
 void Loop::save_best() {
-    if (!unsaved_best_) return;
-    task_.save_weights(file("weights-best.h5"), *unsaved_best_, notes(best_->step));
-    unsaved_best_.reset();
+    validations_.save_best([this](const std::vector<Array>& weights, std::uint64_t step) {
+        task_.save_weights(file("weights-best.h5"), weights, notes(step));
+    });
 }
 
 /// Weights and checkpoint, the latter last: what a kill leaves before it is written anew, the same.
@@ -384,11 +343,11 @@ TrainingResult Loop::run() {
     TrainingResult result{epoch(), step_, {}, {}, {}, {}, {}};
     if (!leads()) return result;
     finish();
-    result.best = best_;
-    result.last = last_;
+    result.best = validations_.best();
+    result.last = validations_.last();
     result.weights = file("weights-last.h5");
     if (learner_.keeps_ema()) result.average_weights = file("weights-average.h5");
-    if (best_) result.best_weights = file("weights-best.h5");
+    if (result.best) result.best_weights = file("weights-best.h5");
     return result;
 }
 

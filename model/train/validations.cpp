@@ -1,0 +1,62 @@
+#include "model/train/validations.hpp"
+
+namespace actformer::model {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const ValidationReport& report) {
+    return {{"epoch", report.epoch}, {"step", report.step}, {"values", report.values}};
+}
+
+ValidationReport report_from(const Json& json) {
+    ValidationReport report;
+    report.epoch = json.at("epoch");
+    report.step = json.at("step");
+    report.values = json.at("values");
+    return report;
+}
+
+}  // namespace
+
+void Validations::add_to(Json& state) const {
+    if (validator_) state["scorer"] = validator_->fingerprint();
+    if (best_) {
+        state["best"] = json_of(*best_);
+        state["best"]["merit"] = best_selection_score_;
+    }
+    if (last_) state["last"] = json_of(*last_);
+}
+
+bool Validations::take_from(const Json& state) {
+    if (!validator_ || !state.contains("best")) return true;
+    if (state.at("scorer") != validator_->fingerprint()) return false;
+    best_ = report_from(state.at("best"));
+    best_->best = true;
+    best_selection_score_ = state.at("best").at("merit");
+    if (state.contains("last")) last_ = report_from(state.at("last"));
+    return true;
+}
+
+std::optional<ValidationReport> Validations::end() {
+    auto validation = validator_ ? validator_->end() : std::nullopt;
+    if (!validation) return std::nullopt;
+    auto& report = validation->report;
+    report.best = !best_ || validation->selection_score > best_selection_score_;
+    last_ = report;
+    if (report.best) {
+        best_ = report;
+        best_selection_score_ = validation->selection_score;
+        unsaved_best_ = std::move(validation->weights);
+    }
+    return report;
+}
+
+void Validations::save_best(
+    const std::function<void(const std::vector<Array>& weights, std::uint64_t step)>& save) {
+    if (!unsaved_best_) return;
+    save(*unsaved_best_, best_->step);
+    unsaved_best_.reset();
+}
+
+}  // namespace actformer::model
