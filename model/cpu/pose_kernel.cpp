@@ -48,17 +48,17 @@ void store_vectors(const Vectors<T>& vectors, T* to, std::int64_t step, std::int
 
 /// tanh of what load_vectors gives.
 template <typename T>
-Vectors<T> bent(const T* raw, std::int64_t step, std::int64_t here) {
+Vectors<T> bounded(const T* raw, std::int64_t step, std::int64_t here) {
     auto out = load_vectors(raw, step, here);
     for (std::int64_t d = 0; d < axes; ++d) out[d] = hyperbolic_tangent(out[d]);
     return out;
 }
 
-/// Back through bent(): `grad` times 1 - tanh^2.
+/// Back through bounded(): `grad` times 1 - tanh^2.
 template <typename T>
-Vectors<T> unbent(const Vectors<T>& bent, const Vectors<T>& grad) {
+Vectors<T> bounded_backward(const Vectors<T>& bounded, const Vectors<T>& grad) {
     Vectors<T> out;
-    for (std::int64_t d = 0; d < axes; ++d) out[d] = grad[d] * (1 - bent[d] * bent[d]);
+    for (std::int64_t d = 0; d < axes; ++d) out[d] = grad[d] * (1 - bounded[d] * bounded[d]);
     return out;
 }
 
@@ -68,7 +68,7 @@ struct UnitFinish {
     static constexpr std::int64_t numbers = axes;
 
     static void forward(const T* raw, std::int64_t nodes, T* motion, std::int64_t step, std::int64_t here) {
-        const auto limbs = bent(raw, nodes, here);
+        const auto limbs = bounded(raw, nodes, here);
         const auto over = 1 / (root(dot(limbs, limbs)) + static_cast<T>(length_epsilon));
         for (std::int64_t d = 0; d < axes; ++d) store_part(motion + d * step, limbs[d] * over, here);
     }
@@ -76,13 +76,13 @@ struct UnitFinish {
     /// With s = |l|: dl = dy / (s + e) - l (l . dy) / (s (s + e)^2); the second term is 0 where l is.
     static void backward(const T* raw, std::int64_t nodes, const T* grad, std::int64_t step, T* to,
                          std::int64_t here) {
-        const auto limbs = bent(raw, nodes, here), g = load_vectors(grad, step, here);
+        const auto limbs = bounded(raw, nodes, here), g = load_vectors(grad, step, here);
         const auto length = root(dot(limbs, limbs)), over = 1 / (length + static_cast<T>(length_epsilon));
         const Lanes<T> still = Lanes<T>{} + std::numeric_limits<T>::min();
         const auto pull = dot(g, limbs) * over * over / (length > still ? length : still);
         Vectors<T> to_limbs;
         for (std::int64_t d = 0; d < axes; ++d) to_limbs[d] = g[d] * over - limbs[d] * pull;
-        store_vectors(unbent(limbs, to_limbs), to, nodes, here);
+        store_vectors(bounded_backward(limbs, to_limbs), to, nodes, here);
     }
 };
 
@@ -92,18 +92,18 @@ struct OrthonormalFinish {
     static constexpr std::int64_t numbers = 2 * axes;
 
     static void forward(const T* raw, std::int64_t nodes, T* motion, std::int64_t step, std::int64_t here) {
-        const Orthonormal<T> rows(bent(raw, nodes, here), bent(raw + axes * nodes, nodes, here));
+        const Orthonormal<T> rows(bounded(raw, nodes, here), bounded(raw + axes * nodes, nodes, here));
         store_vectors(rows.first(), motion, step, here);
         store_vectors(rows.second(), motion + axes * step, step, here);
     }
 
     static void backward(const T* raw, std::int64_t nodes, const T* grad, std::int64_t step, T* to,
                          std::int64_t here) {
-        const auto a = bent(raw, nodes, here), b = bent(raw + axes * nodes, nodes, here);
+        const auto a = bounded(raw, nodes, here), b = bounded(raw + axes * nodes, nodes, here);
         const auto back = Orthonormal<T>(a, b).backward(load_vectors(grad, step, here),
                                                         load_vectors(grad + axes * step, step, here));
-        store_vectors(unbent(a, back.a), to, nodes, here);
-        store_vectors(unbent(b, back.b), to + axes * nodes, nodes, here);
+        store_vectors(bounded_backward(a, back.a), to, nodes, here);
+        store_vectors(bounded_backward(b, back.b), to + axes * nodes, nodes, here);
     }
 };
 

@@ -184,10 +184,10 @@ namespace {
 
 /// Raw numbers (N, P, T, K, D) of every node but the free one, through tanh, in libtorch's operators.
 at::Tensor plain_finish(const at::Tensor& raw, actformer::ingest::Representation how) {
-    const auto bent = raw.tanh();
+    const auto bounded = raw.tanh();
     const auto length = [](const at::Tensor& v) { return v.norm(2, {-1}, true); };
-    if (how == actformer::ingest::Representation::limb) return bent / (length(bent) + 1e-4);
-    const auto a = bent.slice(4, 0, 3), b = bent.slice(4, 3, 6);
+    if (how == actformer::ingest::Representation::limb) return bounded / (length(bounded) + 1e-4);
+    const auto a = bounded.slice(4, 0, 3), b = bounded.slice(4, 3, 6);
     const auto first = a / length(a), rest = b - (b * first).sum(4, true) * first;
     return at::cat({first, rest / length(rest)}, 4);
 }
