@@ -57,7 +57,7 @@ template <typename T>
 void statistics(const T* x, std::int64_t rows, std::int64_t channels, T* mean, T* variance, int threads);
 
 /// Normalisation and what follows it: y = relu(dropout(normalised x) + shortcut), each of the three only where asked for.
-struct Finish {
+struct NormOptions {
     bool relu = true;
     double drop = 0;         ///< share dropped; the kept are scaled up to make good
     std::uint64_t seed = 0;  ///< decides which
@@ -71,12 +71,12 @@ struct Norm {
 /// `shortcut` may be null.
 template <typename T>
 void norm_forward(const T* x, std::int64_t rows, std::int64_t channels, const Norm<T>& norm,
-                  const Finish& finish, const T* shortcut, T* y, int threads);
+                  const NormOptions& options, const T* shortcut, T* y, int threads);
 
 /// Gradients through the batch's own statistics. `grad_shortcut` may be null.
 template <typename T>
 void norm_backward(const T* x, std::int64_t rows, std::int64_t channels, const Norm<T>& norm,
-                   const Finish& finish, const T* y, const T* grad, T* grad_x, T* grad_shortcut,
+                   const NormOptions& options, const T* y, const T* grad, T* grad_x, T* grad_shortcut,
                    T* grad_weight, T* grad_bias, int threads);
 
 }  // namespace actformer::model::cpu

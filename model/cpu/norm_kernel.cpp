@@ -15,10 +15,10 @@ constexpr std::int64_t block_rows = 16;
 /// Which numbers are kept: a hash of the place and the seed against a threshold.
 class Mask {
   public:
-    explicit Mask(const Finish& finish)
-        : low_(static_cast<std::uint32_t>(finish.seed)),
-          high_(static_cast<std::uint32_t>(finish.seed >> 32)),
-          threshold_(static_cast<std::uint32_t>(finish.drop * 4294967296.0)) {}
+    explicit Mask(const NormOptions& options)
+        : low_(static_cast<std::uint32_t>(options.seed)),
+          high_(static_cast<std::uint32_t>(options.seed >> 32)),
+          threshold_(static_cast<std::uint32_t>(options.drop * 4294967296.0)) {}
 
     bool keeps(std::uint32_t place) const {
         std::uint32_t h = place * 0x9E3779B1U ^ low_;
@@ -181,18 +181,18 @@ void statistics(const T* x, std::int64_t rows, std::int64_t channels, T* mean, T
 
 template <typename T>
 void norm_forward(const T* x, std::int64_t rows, std::int64_t channels, const Norm<T>& norm,
-                  const Finish& finish, const T* shortcut, T* y, int threads) {
+                  const NormOptions& options, const T* shortcut, T* y, int threads) {
     // The mean is taken off first: folded into the bias, it would cost a channel far from zero its last digits.
     std::vector<T> scale(static_cast<std::size_t>(channels));
     for (std::size_t c = 0; c < scale.size(); ++c) scale[c] = norm.weight[c] * norm.deviation_inverse[c];
-    const Mask mask(finish);
-    const T gain = static_cast<T>(1 / (1 - finish.drop));
+    const Mask mask(options);
+    const T gain = static_cast<T>(1 / (1 - options.drop));
     const auto run = [&]<bool relu, bool drop, bool add>() {
         finish_rows<relu, drop, add>(x, rows, channels, norm.mean, scale.data(), norm.bias, mask, gain,
                                      shortcut, y, threads);
     };
-    const bool drop = finish.drop > 0;
-    if (!finish.relu)
+    const bool drop = options.drop > 0;
+    if (!options.relu)
         return drop ? run.template operator()<false, true, false>()
                     : run.template operator()<false, false, false>();
     if (shortcut)
@@ -204,25 +204,26 @@ void norm_forward(const T* x, std::int64_t rows, std::int64_t channels, const No
 
 template <typename T>
 void norm_backward(const T* x, std::int64_t rows, std::int64_t channels, const Norm<T>& norm,
-                   const Finish& finish, const T* y, const T* grad, T* grad_x, T* grad_shortcut,
+                   const NormOptions& options, const T* y, const T* grad, T* grad_x, T* grad_shortcut,
                    T* grad_weight, T* grad_bias, int threads) {
-    const Mask mask(finish);
-    const T gain = static_cast<T>(1 / (1 - finish.drop));
+    const Mask mask(options);
+    const T gain = static_cast<T>(1 / (1 - options.drop));
     const auto run = [&]<bool relu, bool drop>() {
         backward_rows<relu, drop>(x, rows, channels, norm, mask, gain, y, grad, grad_x, grad_shortcut,
                                   grad_weight, grad_bias, threads);
     };
-    if (finish.relu)
-        return finish.drop > 0 ? run.template operator()<true, true>()
-                               : run.template operator()<true, false>();
-    return finish.drop > 0 ? run.template operator()<false, true>() : run.template operator()<false, false>();
+    if (options.relu)
+        return options.drop > 0 ? run.template operator()<true, true>()
+                                : run.template operator()<true, false>();
+    return options.drop > 0 ? run.template operator()<false, true>()
+                            : run.template operator()<false, false>();
 }
 
-#define ACTFORMER_NORM(T)                                                                               \
-    template void statistics<T>(const T*, std::int64_t, std::int64_t, T*, T*, int);                     \
-    template void norm_forward<T>(const T*, std::int64_t, std::int64_t, const Norm<T>&, const Finish&,  \
-                                  const T*, T*, int);                                                   \
-    template void norm_backward<T>(const T*, std::int64_t, std::int64_t, const Norm<T>&, const Finish&, \
+#define ACTFORMER_NORM(T)                                                                                    \
+    template void statistics<T>(const T*, std::int64_t, std::int64_t, T*, T*, int);                          \
+    template void norm_forward<T>(const T*, std::int64_t, std::int64_t, const Norm<T>&, const NormOptions&,  \
+                                  const T*, T*, int);                                                        \
+    template void norm_backward<T>(const T*, std::int64_t, std::int64_t, const Norm<T>&, const NormOptions&, \
                                    const T*, const T*, T*, T*, T*, T*, int);
 ACTFORMER_NORM(float)
 ACTFORMER_NORM(double)

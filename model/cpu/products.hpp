@@ -106,21 +106,21 @@ struct ListedRows {
 
 namespace detail {
 
-/// Hands finish(row, column, sums) the sums of R rows times W vectors of a panel.
-template <typename T, int R, int W, typename Tile, typename Finish>
+/// Hands take(row, column, sums) the sums of R rows times W vectors of a panel.
+template <typename T, int R, int W, typename Tile, typename Take>
 inline void product_tile(const Tile& left, const T* right, std::ptrdiff_t depth, std::ptrdiff_t row,
-                         std::ptrdiff_t column, const Finish& finish) {
+                         std::ptrdiff_t column, const Take& take) {
     alignas(vector_bytes) Lanes<T> sum[R][W];  // deduced types of vectors lose the loose alignment
     multiply_tile<T, R, W>(left, right, panel_columns<T>, depth, sum);
-    finish(row, column, sum);
+    take(row, column, sum);
 }
 
-template <typename T, int W, typename Rows, typename Finish, int... Counts>
+template <typename T, int W, typename Rows, typename Take, int... Counts>
 inline void product_rows(const Rows& rows, std::ptrdiff_t row, int count, const T* panel,
-                         std::ptrdiff_t depth, std::ptrdiff_t column, const Finish& finish,
+                         std::ptrdiff_t depth, std::ptrdiff_t column, const Take& take,
                          std::integer_sequence<int, Counts...> /*counts*/) {
     ((count == Counts + 1 ? product_tile<T, Counts + 1, W>(rows.template tile<Counts + 1>(row), panel, depth,
-                                                           row, column, finish)
+                                                           row, column, take)
                           : void()),
      ...);
 }
@@ -137,30 +137,30 @@ inline void for_even_tiles(std::ptrdiff_t rows, const Use& use) {
 
 }  // namespace detail
 
-/// Rows times one panel of `vectors` vectors: finish(row, column, sums[R][W]) takes the sums of the R rows from `row` on,
+/// Rows times one panel of `vectors` vectors: take(row, column, sums[R][W]) takes the sums of the R rows from `row` on,
 /// columns counted from the panel's.
-template <typename T, typename Rows, typename Finish>
+template <typename T, typename Rows, typename Take>
 inline void panel_product(const Rows& rows, std::ptrdiff_t count, const T* panel, std::ptrdiff_t depth,
-                          int vectors, const Finish& finish) {
+                          int vectors, const Take& take) {
     using Counts = std::make_integer_sequence<int, most_rows>;
     detail::for_even_tiles(count, [&](std::ptrdiff_t row, int here) {
         if (vectors == panel_vectors)
-            detail::product_rows<T, panel_vectors>(rows, row, here, panel, depth, 0, finish, Counts{});
+            detail::product_rows<T, panel_vectors>(rows, row, here, panel, depth, 0, take, Counts{});
         else
-            detail::product_rows<T, 1>(rows, row, here, panel, depth, 0, finish, Counts{});
+            detail::product_rows<T, 1>(rows, row, here, panel, depth, 0, take, Counts{});
     });
 }
 
 /// `count` rows times a packed matrix of `columns` columns. Vectors go up to the column where they cover all.
-template <typename T, typename Rows, typename Finish>
+template <typename T, typename Rows, typename Take>
 inline void product(const Rows& rows, std::ptrdiff_t count, const PackedMatrix<T>& right,
-                    std::ptrdiff_t columns, const Finish& finish) {
+                    std::ptrdiff_t columns, const Take& take) {
     for (std::ptrdiff_t p = 0; p < right.panels(); ++p) {
         const auto first = p * panel_columns<T>;
         const int vectors = columns - first > lanes<T> ? panel_vectors : 1;
         panel_product<T>(rows, count, right.panel(p), right.depth(), vectors,
                          [&](std::ptrdiff_t row, std::ptrdiff_t column, const auto& sums) {
-                             finish(row, first + column, sums);
+                             take(row, first + column, sums);
                          });
     }
 }

@@ -103,13 +103,13 @@ cpu::Norm<T> batch_norm_of(const at::Tensor& mean, const at::Tensor& inverse, co
 
 /// Writes relu(dropout(normalised x) + shortcut) for given statistics.
 at::Tensor normalised(const at::Tensor& x, const at::Tensor& mean, const at::Tensor& inverse,
-                      const at::Tensor& weight, const at::Tensor& bias, const cpu::Finish& finish,
+                      const at::Tensor& weight, const at::Tensor& bias, const cpu::NormOptions& options,
                       const at::Tensor& shortcut) {
     auto y = at::empty_like(x);
     by_type(x, [&](auto number) {
         using T = decltype(number);
         cpu::norm_forward<T>(in<T>(x), shape_of(x).rows(), x.size(3),
-                             batch_norm_of<T>(mean, inverse, weight, bias), finish,
+                             batch_norm_of<T>(mean, inverse, weight, bias), options,
                              shortcut.defined() ? in<T>(shortcut) : nullptr, in<T>(y), at::get_num_threads());
     });
     return y;
@@ -119,13 +119,13 @@ at::Tensor normalised(const at::Tensor& x, const at::Tensor& mean, const at::Ten
 struct BatchNorm : Function<BatchNorm> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& x, const at::Tensor& weight,
                               const at::Tensor& bias, const at::Tensor& shortcut, const at::Tensor& mean,
-                              const at::Tensor& inverse, const cpu::Finish& finish) {
+                              const at::Tensor& inverse, const cpu::NormOptions& options) {
         const bool has_shortcut = shortcut.numel() > 0;
-        auto y = normalised(x, mean, inverse, weight, bias, finish, has_shortcut ? shortcut : at::Tensor());
+        auto y = normalised(x, mean, inverse, weight, bias, options, has_shortcut ? shortcut : at::Tensor());
         context->save_for_backward({x, weight, mean, inverse, y});
-        context->saved_data["relu"] = finish.relu;
-        context->saved_data["drop"] = finish.drop;
-        context->saved_data["seed"] = static_cast<std::int64_t>(finish.seed);
+        context->saved_data["relu"] = options.relu;
+        context->saved_data["drop"] = options.drop;
+        context->saved_data["seed"] = static_cast<std::int64_t>(options.seed);
         context->saved_data["shortcut"] = has_shortcut;
         return y;
     }
@@ -134,15 +134,16 @@ struct BatchNorm : Function<BatchNorm> {
         const auto saved = context->get_saved_variables();
         const auto &x = saved[0], &weight = saved[1], &mean = saved[2], &inverse = saved[3], &y = saved[4];
         const auto grad = grads[0].contiguous();
-        const cpu::Finish finish{context->saved_data["relu"].toBool(), context->saved_data["drop"].toDouble(),
-                                 static_cast<std::uint64_t>(context->saved_data["seed"].toInt())};
+        const cpu::NormOptions options{context->saved_data["relu"].toBool(),
+                                       context->saved_data["drop"].toDouble(),
+                                       static_cast<std::uint64_t>(context->saved_data["seed"].toInt())};
         auto to_x = at::empty_like(x), to_weight = at::empty_like(weight), to_bias = at::empty_like(weight);
         at::Tensor to_shortcut;
         if (context->saved_data["shortcut"].toBool()) to_shortcut = at::empty_like(x);
         by_type(x, [&](auto number) {
             using T = decltype(number);
             cpu::norm_backward<T>(in<T>(x), shape_of(x).rows(), x.size(3),
-                                  batch_norm_of<T>(mean, inverse, weight, {}), finish, in<T>(y), in<T>(grad),
+                                  batch_norm_of<T>(mean, inverse, weight, {}), options, in<T>(y), in<T>(grad),
                                   in<T>(to_x), to_shortcut.defined() ? in<T>(to_shortcut) : nullptr,
                                   in<T>(to_weight), in<T>(to_bias), at::get_num_threads());
         });
@@ -162,11 +163,11 @@ at::Tensor fused_temporal_convolution(const at::Tensor& x, const at::Tensor& wei
     return TemporalConvolution::apply(x, weight, bias, stride);
 }
 
-at::Tensor fused_norm(const at::Tensor& x, const NormWeights& weights, const cpu::Finish& finish,
+at::Tensor fused_norm(const at::Tensor& x, const NormWeights& weights, const cpu::NormOptions& options,
                       const at::Tensor& shortcut, bool training) {
     if (!training)
         return normalised(x, weights.running_mean, inverse_deviation(weights.running_variance),
-                          weights.weight, weights.bias, finish, shortcut);
+                          weights.weight, weights.bias, options, shortcut);
     auto mean = at::empty_like(weights.running_mean), variance = at::empty_like(mean);
     const auto rows = shape_of(x).rows();
     {
@@ -183,7 +184,7 @@ at::Tensor fused_norm(const at::Tensor& x, const NormWeights& weights, const cpu
     }
     return BatchNorm::apply(x, weights.weight, weights.bias,
                             shortcut.defined() ? shortcut : at::empty({0}, x.options()), mean,
-                            inverse_deviation(variance), finish);
+                            inverse_deviation(variance), options);
 }
 
 }  // namespace actformer::model

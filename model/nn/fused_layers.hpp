@@ -22,9 +22,9 @@ struct NormWeights {
     at::Tensor weight, bias, running_mean, running_variance;
 };
 
-/// relu(dropout(normalised x) + shortcut), as `finish` says; an undefined shortcut adds nothing. Differentiable while
+/// relu(dropout(normalised x) + shortcut), as `options` says; an undefined shortcut adds nothing. Differentiable while
 /// training, by the statistics of the batch; else by the running ones and not differentiable.
-at::Tensor fused_norm(const at::Tensor& x, const NormWeights& weights, const cpu::Finish& finish,
+at::Tensor fused_norm(const at::Tensor& x, const NormWeights& weights, const cpu::NormOptions& options,
                       const at::Tensor& shortcut, bool training);
 
 }  // namespace actformer::model
