@@ -23,7 +23,7 @@ class RecogniserLearner : public Learner {
     void load(const std::vector<Array>& state, std::uint64_t steps, const std::string& where) override {
         network_->load(state, steps, where);
     }
-    void share(std::uint64_t /*steps*/) override {}  // by one process
+    void broadcast(std::uint64_t /*steps*/) override {}  // by one process
     std::vector<Array> weights() override { return network_->weights(); }
 
     /// What it takes every window of `clips` for.

@@ -59,7 +59,7 @@ class Learner {
     virtual void load(const std::vector<Array>& state, std::uint64_t steps, const std::string& where) = 0;
 
     /// Gives every process the state of rank 0, behind `steps` steps.
-    virtual void share(std::uint64_t steps) = 0;
+    virtual void broadcast(std::uint64_t steps) = 0;
 
     /// What is saved: the weights of the last step, and their EMA where one is kept.
     virtual std::vector<Array> weights() = 0;

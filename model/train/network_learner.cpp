@@ -19,12 +19,12 @@ NetworkLearner::NetworkLearner(std::shared_ptr<torch::nn::Module> network,
       adam_(parameters_, adam),
       sums_(at::zeros({losses}, at::TensorOptions(at::kDouble).device(setup.device))) {
     if (ema_) ema_parameters_.emplace(ema_->parameters());
-    share(0);
+    broadcast(0);
 }
 
-void NetworkLearner::average(const at::Tensor& losses) {
+void NetworkLearner::all_reduce_mean(const at::Tensor& losses) {
     parameters_.appended_values().copy_(losses.detach());
-    setup_.processes.average(parameters_.all_reduce_buffer());
+    setup_.processes.all_reduce_mean(parameters_.all_reduce_buffer());
     sums_.add_(parameters_.appended_values());
 }
 
@@ -57,11 +57,11 @@ void NetworkLearner::load(const std::vector<Array>& state, std::uint64_t steps, 
     load_state(optimiser_state(), state, where);
 }
 
-void NetworkLearner::share(std::uint64_t steps) {
+void NetworkLearner::broadcast(std::uint64_t steps) {
     adam_.steps = steps;
     const at::NoGradGuard no_gradients;
-    setup_.processes.share(parameters_.values());
-    for (auto& tensor : optimiser_state()) setup_.processes.share(tensor);
+    setup_.processes.broadcast(parameters_.values());
+    for (auto& tensor : optimiser_state()) setup_.processes.broadcast(tensor);
 }
 
 std::vector<Array> NetworkLearner::weights() {

@@ -19,7 +19,7 @@ class NetworkLearner : public Learner {
     bool finite() override;
     std::vector<Array> state() override;
     void load(const std::vector<Array>& state, std::uint64_t steps, const std::string& where) override;
-    void share(std::uint64_t steps) override;
+    void broadcast(std::uint64_t steps) override;
     std::vector<Array> weights() override;
     bool keeps_ema() const override { return ema_ != nullptr; }
     std::vector<Array> ema_weights() override;
@@ -34,7 +34,7 @@ class NetworkLearner : public Learner {
     FlatParameters& parameters() { return parameters_; }
 
     /// Behind a backward pass: means over the processes of the gradients and of `losses` (losses), which `sums` gets too.
-    void average(const at::Tensor& losses);
+    void all_reduce_mean(const at::Tensor& losses);
 
     /// Moves the weights along their gradients, and their EMA.
     void move(double rate_share);

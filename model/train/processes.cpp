@@ -27,15 +27,15 @@ namespace {
 /// Of work that a group does: Gloo's and NCCL's classes have a common base in libtorch 2 only, and it is another in 1.
 struct Collective {
     virtual ~Collective() = default;
-    virtual void sum(std::vector<at::Tensor>& values) = 0;
-    virtual void share(std::vector<at::Tensor>& values) = 0;
+    virtual void all_reduce_sum(std::vector<at::Tensor>& values) = 0;
+    virtual void broadcast(std::vector<at::Tensor>& values) = 0;
 };
 
 template <typename Backend>
 struct Through final : Collective {
     explicit Through(c10::intrusive_ptr<Backend> made) : backend(std::move(made)) {}
-    void sum(std::vector<at::Tensor>& values) override { backend->allreduce(values)->wait(); }
-    void share(std::vector<at::Tensor>& values) override { backend->broadcast(values)->wait(); }
+    void all_reduce_sum(std::vector<at::Tensor>& values) override { backend->allreduce(values)->wait(); }
+    void broadcast(std::vector<at::Tensor>& values) override { backend->broadcast(values)->wait(); }
     c10::intrusive_ptr<Backend> backend;
 };
 
@@ -101,18 +101,18 @@ Processes::Processes(Place place, const at::Device& device)
     }
 }
 
-void Processes::average(at::Tensor values) const {
+void Processes::all_reduce_mean(at::Tensor values) const {
     if (!group_) return;
     const at::NoGradGuard no_gradients;
     std::vector<at::Tensor> one{values};
-    group_->work->sum(one);
+    group_->work->all_reduce_sum(one);
     values.div_(place_.size);
 }
 
-void Processes::share(at::Tensor values) const {
+void Processes::broadcast(at::Tensor values) const {
     if (!group_) return;
     std::vector<at::Tensor> one{values};
-    group_->work->share(one);
+    group_->work->broadcast(one);
 }
 
 #else
@@ -123,9 +123,9 @@ Processes::Processes(Place, const at::Device&) {
     throw Error("--data-parallel: this libtorch was built without c10d, its process groups");
 }
 
-void Processes::average(at::Tensor) const {}
+void Processes::all_reduce_mean(at::Tensor) const {}
 
-void Processes::share(at::Tensor) const {}
+void Processes::broadcast(at::Tensor) const {}
 
 #endif
 

@@ -23,10 +23,10 @@ class Processes {
     const Place& place() const { return place_; }
 
     /// The mean over all processes of what each has in `values`, in place, the same bits in each.
-    void average(at::Tensor values) const;
+    void all_reduce_mean(at::Tensor values) const;
 
     /// What rank 0 has in `values`, in each.
-    void share(at::Tensor values) const;
+    void broadcast(at::Tensor values) const;
 
   private:
     struct Group;

@@ -33,7 +33,7 @@ class Loop {
     }
     void resume();
     void compare_data(const Json& state) const;
-    void share();
+    void broadcast();
     std::vector<double> read_sums();
     void read_losses();
     void end_epoch();
@@ -90,7 +90,7 @@ Loop::Loop(const TrainingTask& task, Learner& learner, const LearnerSetup& setup
         folder_->keep_to(task_.config);
         resume();
     }
-    share();
+    broadcast();
     sums_step_ = timed_from_ = step_;
     sums_ = read_sums();
     kept_ = epoch_start_ = Clock::now();
@@ -151,12 +151,12 @@ void Loop::resume() {
 }
 
 /// What rank 0 found in the folder, to all.
-void Loop::share() {
+void Loop::broadcast() {
     auto counters = at::tensor({static_cast<double>(step_)}, at::kDouble).to(learner_.sums().device());
-    processes_.share(counters);
-    processes_.share(learner_.sums());
+    processes_.broadcast(counters);
+    processes_.broadcast(learner_.sums());
     step_ = static_cast<std::uint64_t>(counters.item<double>());
-    learner_.share(step_);
+    learner_.broadcast(step_);
 }
 
 /// Waits for the device.

@@ -73,7 +73,7 @@ void MotionLearner::step(std::uint64_t step, double rate_share) {
     const auto outcome = network_->forward(real, labels, noise(step), feeds_own(settings, step));
     const auto reconstruction = outcome.reconstruction.sum(), divergence = outcome.divergence.sum();
     (reconstruction + settings.lambda_kl * divergence).backward();
-    average(at::stack({reconstruction, divergence}));
+    all_reduce_mean(at::stack({reconstruction, divergence}));
     if (settings.weight_decay > 0)
         parameters().gradients().add_(parameters().values(), settings.weight_decay);
     move(rate_share);

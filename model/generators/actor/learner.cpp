@@ -67,7 +67,7 @@ void ActorLearner::step(std::uint64_t step, double rate_share) {
     const auto found = actor_losses(real, made, latent, training_.kl_factor(), joints_ ? &*joints_ : nullptr);
     found.total.backward();
     const auto rcxyz = found.rcxyz.defined() ? found.rcxyz : at::zeros_like(found.rc);
-    average(at::stack({found.total, found.rc, rcxyz, found.kl}));
+    all_reduce_mean(at::stack({found.total, found.rc, rcxyz, found.kl}));
     move(rate_share);
 }
 

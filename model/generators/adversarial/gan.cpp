@@ -47,7 +47,7 @@ Gan::Gan(const GanSettings& settings, GanNetworks networks, const at::Device& de
       generator_graph_(device, settings.cuda_graphs && !augments(settings) && settings.spread == 0),
       sums_(at::zeros({4}, at::TensorOptions(at::kDouble).device(device))) {
     if (networks_.ema) ema_parameters_.emplace(networks_.ema->parameters());
-    share(0);
+    broadcast(0);
 }
 
 at::Tensor Gan::latent(const at::Tensor& labels, std::uint64_t draw) {
@@ -100,7 +100,7 @@ void Gan::step_discriminator(const at::Tensor& real, const at::Tensor& labels, s
     const auto in = inputs(real, labels, draw);
     discriminator_parameters_.zero_gradients();
     discriminator_graph_.run([&] { discriminator_gradients(in, draw); });
-    processes_.average(discriminator_parameters_.all_reduce_buffer());
+    processes_.all_reduce_mean(discriminator_parameters_.all_reduce_buffer());
     discriminator_adam_.step(rate_share_);
     sums_.narrow(0, 0, 3).add_(discriminator_parameters_.appended_values());
 }
@@ -124,7 +124,7 @@ void Gan::step_generator(const at::Tensor& real, const at::Tensor& labels, std::
     const auto in = inputs(real, labels, draw);
     generator_parameters_.zero_gradients();
     generator_graph_.run([&] { generator_gradients(in, draw); });
-    processes_.average(generator_parameters_.all_reduce_buffer());
+    processes_.all_reduce_mean(generator_parameters_.all_reduce_buffer());
     generator_adam_.step(rate_share_);
     sums_.narrow(0, 3, 1).add_(generator_parameters_.appended_values());
     if (ema_parameters_)
@@ -173,14 +173,14 @@ void Gan::count(std::uint64_t steps) {
     discriminator_adam_.steps = steps * settings_.discriminator_steps;
 }
 
-void Gan::share(std::uint64_t steps) {
+void Gan::broadcast(std::uint64_t steps) {
     count(steps);
     const at::NoGradGuard no_gradients;
-    processes_.share(generator_parameters_.values());
-    processes_.share(discriminator_parameters_.values());
-    for (auto& tensor : generator().buffers()) processes_.share(tensor);
-    for (auto& tensor : networks_.discriminator->buffers()) processes_.share(tensor);
-    for (auto& tensor : optimiser_state()) processes_.share(tensor);
+    processes_.broadcast(generator_parameters_.values());
+    processes_.broadcast(discriminator_parameters_.values());
+    for (auto& tensor : generator().buffers()) processes_.broadcast(tensor);
+    for (auto& tensor : networks_.discriminator->buffers()) processes_.broadcast(tensor);
+    for (auto& tensor : optimiser_state()) processes_.broadcast(tensor);
 }
 
 }  // namespace actformer::model

@@ -49,7 +49,7 @@ class Gan {
     void load(const std::vector<Array>& arrays, std::uint64_t steps, const std::string& where);
 
     /// Gives every process the state of rank 0, after `steps` steps of the generator.
-    void share(std::uint64_t steps);
+    void broadcast(std::uint64_t steps);
 
   private:
     void count(std::uint64_t steps);

@@ -24,7 +24,7 @@ class GanLearner : public Learner {
     void load(const std::vector<Array>& state, std::uint64_t steps, const std::string& where) override {
         gan_.load(state, steps, where);
     }
-    void share(std::uint64_t steps) override { gan_.share(steps); }
+    void broadcast(std::uint64_t steps) override { gan_.broadcast(steps); }
     std::vector<Array> weights() override;
     bool keeps_ema() const override { return settings_.average > 0; }
     std::vector<Array> ema_weights() override;
