@@ -142,7 +142,7 @@ void put_joint(T* to, int joint, const Vector3<T>& v) {
     store(to + 2 * lanes<T>, v.z);
 }
 
-/// A bone as it points unbent.
+/// A bone as it points where nothing is rotated.
 template <typename T>
 struct Bone {
     Lanes<T> x, y, z;
@@ -157,8 +157,8 @@ struct Bone {
 };
 
 template <typename T>
-void bend_chain(const Chains& chains, const std::vector<int>& chain, const T* poses, const T* bones,
-                T* joints) {
+void follow_chain(const Chains& chains, const std::vector<int>& chain, const T* poses, const T* bones,
+                  T* joints) {
     auto rotation = identity<T>();
     auto at = joint_at(joints, chain[0]);
     for (std::size_t i = 1; i < chain.size(); ++i) {
@@ -174,8 +174,8 @@ void bend_chain(const Chains& chains, const std::vector<int>& chain, const T* po
 
 /// `grad`, to the joints, becomes what reaches the chain's first joint; `to` gets the gradients of its rotations.
 template <typename T>
-void bend_chain_back(const Chains& chains, const std::vector<int>& chain, const T* poses, const T* bones,
-                     T* grad, T* to) {
+void follow_chain_backward(const Chains& chains, const std::vector<int>& chain, const T* poses,
+                           const T* bones, T* grad, T* to) {
     std::array<Matrix<T>, Chains::most_links> rotations;
     rotations[0] = identity<T>();
     for (std::size_t i = 1; i < chain.size(); ++i)
@@ -192,9 +192,9 @@ void bend_chain_back(const Chains& chains, const std::vector<int>& chain, const 
             to_rotation.m[3 * r + 1] += rows[r] * bone.y;
             to_rotation.m[3 * r + 2] += rows[r] * bone.z;
         }
-        const Rodrigues<T> bend(joint_at(poses, chain[i]));
-        put_joint(to, chain[i], bend.backward(multiplied(transposed(rotations[i - 1]), to_rotation)));
-        to_rotation = multiplied(to_rotation, transposed(bend.rotation()));
+        const Rodrigues<T> turn(joint_at(poses, chain[i]));
+        put_joint(to, chain[i], turn.backward(multiplied(transposed(rotations[i - 1]), to_rotation)));
+        to_rotation = multiplied(to_rotation, transposed(turn.rotation()));
     }
     const auto first = joint_at(grad, chain[0]);
     put_joint(grad, chain[0], {first.x + sum.x, first.y + sum.y, first.z + sum.z});
@@ -203,7 +203,7 @@ void bend_chain_back(const Chains& chains, const std::vector<int>& chain, const 
 }  // namespace
 
 template <typename T>
-void bend_forward(const Chains& chains, std::int64_t rows, const T* poses, const T* bones, T* joints) {
+void chain_kinematics(const Chains& chains, std::int64_t rows, const T* poses, const T* bones, T* joints) {
     const auto count = chains.count(), numbers = 3 * count;
     T *pose = scratch<T>(PoseLanes{}, numbers * lanes<T>), *bone = scratch<T>(BoneLanes{}, count * lanes<T>),
       *joint = scratch<T>(JointLanes{}, numbers * lanes<T>);
@@ -212,14 +212,14 @@ void bend_forward(const Chains& chains, std::int64_t rows, const T* poses, const
         to_lanes(poses + row * numbers, here, numbers, pose);
         to_lanes(bones + row * count, here, count, bone);
         put_joint(joint, 0, joint_at(pose, 0));
-        for (const auto& chain : chains.joints) bend_chain(chains, chain, pose, bone, joint);
+        for (const auto& chain : chains.joints) follow_chain(chains, chain, pose, bone, joint);
         from_lanes(joint, here, numbers, joints + row * numbers);
     }
 }
 
 template <typename T>
-void bend_backward(const Chains& chains, std::int64_t rows, const T* poses, const T* bones, const T* grad,
-                   T* to) {
+void chain_kinematics_backward(const Chains& chains, std::int64_t rows, const T* poses, const T* bones,
+                               const T* grad, T* to) {
     const auto count = chains.count(), numbers = 3 * count;
     T *pose = scratch<T>(PoseLanes{}, numbers * lanes<T>), *bone = scratch<T>(BoneLanes{}, count * lanes<T>),
       *to_joint = scratch<T>(JointGrad{}, numbers * lanes<T>),
@@ -230,15 +230,15 @@ void bend_backward(const Chains& chains, std::int64_t rows, const T* poses, cons
         to_lanes(bones + row * count, here, count, bone);
         to_lanes(grad + row * numbers, here, numbers, to_joint);
         for (auto chain = chains.joints.rbegin(); chain != chains.joints.rend(); ++chain)
-            bend_chain_back(chains, *chain, pose, bone, to_joint, to_pose);
+            follow_chain_backward(chains, *chain, pose, bone, to_joint, to_pose);
         put_joint(to_pose, 0, joint_at(to_joint, 0));
         from_lanes(to_pose, here, numbers, to + row * numbers);
     }
 }
 
-#define ACTFORMER_CHAINS(T)                                                             \
-    template void bend_forward<T>(const Chains&, std::int64_t, const T*, const T*, T*); \
-    template void bend_backward<T>(const Chains&, std::int64_t, const T*, const T*, const T*, T*);
+#define ACTFORMER_CHAINS(T)                                                                 \
+    template void chain_kinematics<T>(const Chains&, std::int64_t, const T*, const T*, T*); \
+    template void chain_kinematics_backward<T>(const Chains&, std::int64_t, const T*, const T*, const T*, T*);
 ACTFORMER_CHAINS(float)
 ACTFORMER_CHAINS(double)
 

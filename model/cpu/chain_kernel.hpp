@@ -20,14 +20,14 @@ struct Chains {
 };
 
 /// poses (rows, 3J): the root's position, then one axis times angle a joint, at most 2 pi; bones (rows, J) lengths -> joints
-/// (rows, 3J). Every chain begins unbent: R = I; along it R = R exp(w_j), p_j = p_before + R (length_j direction_j). Rodrigues' formula,
+/// (rows, 3J). Every chain begins with R = I; along it R = R exp(w_j), p_j = p_before + R (length_j direction_j). Rodrigues' formula,
 /// squared angles at least 1e-4 (Action2Motion, section 3.3, as published).
 template <typename T>
-void bend_forward(const Chains& chains, std::int64_t rows, const T* poses, const T* bones, T* joints);
+void chain_kinematics(const Chains& chains, std::int64_t rows, const T* poses, const T* bones, T* joints);
 
 /// grad (rows, 3J) to the joints -> to (rows, 3J) to the poses, overwritten; none to the bones.
 template <typename T>
-void bend_backward(const Chains& chains, std::int64_t rows, const T* poses, const T* bones, const T* grad,
-                   T* to);
+void chain_kinematics_backward(const Chains& chains, std::int64_t rows, const T* poses, const T* bones,
+                               const T* grad, T* to);
 
 }  // namespace actformer::model::cpu

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ingest/dataset/topology.hpp"
-#include "model/cpu/turned_joints.hpp"
+#include "model/cpu/forward_kinematics.hpp"
 #include "model/nn/constant.hpp"
 
 namespace actformer::model {

@@ -183,38 +183,39 @@ struct Gru : Function<Gru> {
 
 /// What feeds poses back, beside the stack's own tensors.
 struct PoseTensors {
-    at::Tensor weight, head, head_bias, bend, bend_bias, bones;  ///< the last three of a bent body
+    at::Tensor weight, head, head_bias, lie, lie_bias, bones;  ///< the last three of rotations along chains
 };
 
-struct Bending : torch::CustomClassHolder {
+struct ChainOptions : torch::CustomClassHolder {
     const cpu::Chains* chains;
     bool feeds_joints;
 
-    Bending(const cpu::Chains* chains_, bool feeds_joints_) : chains(chains_), feeds_joints(feeds_joints_) {}
+    ChainOptions(const cpu::Chains* chains_, bool feeds_joints_)
+        : chains(chains_), feeds_joints(feeds_joints_) {}
 };
 
-/// What poses leave behind: the outputs, and of a bent body what tanh gave and the joints.
+/// What poses leave behind: the outputs, and of rotations along chains what tanh gave and the joints.
 struct PoseTraces {
     at::Tensor out, inner, joints;
 
     PoseTraces() = default;
-    PoseTraces(const Stack& stack, std::int64_t numbers, bool bent) : out(stack.rows(numbers)) {
-        if (!bent) return;
+    PoseTraces(const Stack& stack, std::int64_t numbers, bool is_lie) : out(stack.rows(numbers)) {
+        if (!is_lie) return;
         inner = stack.rows(numbers);
         joints = stack.rows(numbers);
     }
 };
 
 template <typename T, typename Use>
-void with_feedback(const Stack& stack, const PoseTensors& poses, const Bending& bending,
+void with_feedback(const Stack& stack, const PoseTensors& poses, const ChainOptions& options,
                    const PoseTraces& trace, const cpu::PoseGradient<T>* gradient, const Use& use) {
-    const cpu::BentBody<T> bent{{if_there<T>(poses.bend), if_there<T>(poses.bend_bias)},
-                                bending.chains,
-                                if_there<T>(poses.bones),
-                                bending.feeds_joints};
+    const cpu::ChainBody<T> body{{if_there<T>(poses.lie), if_there<T>(poses.lie_bias)},
+                                 options.chains,
+                                 if_there<T>(poses.bones),
+                                 options.feeds_joints};
     cpu::PoseFeedback<T> feedback(
         stack.shape, poses.head.size(0), in<T>(poses.weight), {in<T>(poses.head), in<T>(poses.head_bias)},
-        bending.chains ? &bent : nullptr, {in<T>(trace.out), in<T>(trace.inner), in<T>(trace.joints)},
+        options.chains ? &body : nullptr, {in<T>(trace.out), in<T>(trace.inner), in<T>(trace.joints)},
         gradient, at::get_num_threads());
     use(feedback);
 }
@@ -222,14 +223,14 @@ void with_feedback(const Stack& stack, const PoseTensors& poses, const Bending& 
 /// Gradients of the weights that feed poses back, out of those to a pose's linear maps.
 variable_list pose_gradients(const PoseTensors& poses, const StackGradients& stack, const at::Tensor& fed,
                              const at::Tensor& states, const PoseTraces& trace, const at::Tensor& raw,
-                             const at::Tensor& bend) {
+                             const at::Tensor& lie) {
     const auto frames = fed.size(0);
     variable_list out{
         flat(stack.inputs(0).narrow(0, 1, frames - 1)).t().mm(flat(fed.narrow(0, 0, frames - 1))),
         flat(raw).t().mm(flat(states)), flat(raw).sum(0)};
-    if (poses.bend.numel() > 0) {
-        out.push_back(flat(bend).t().mm(flat(trace.inner.narrow(2, 3, trace.inner.size(2) - 3))));
-        out.push_back(flat(bend).sum(0));
+    if (poses.lie.numel() > 0) {
+        out.push_back(flat(lie).t().mm(flat(trace.inner.narrow(2, 3, trace.inner.size(2) - 3))));
+        out.push_back(flat(lie).sum(0));
     } else {
         out.insert(out.end(), {at::Tensor(), at::Tensor()});
     }
@@ -239,30 +240,29 @@ variable_list pose_gradients(const PoseTensors& poses, const StackGradients& sta
 /// Outputs and joints' positions; without forward kinematics the latter is an empty tensor.
 struct FedBackPoses : Function<FedBackPoses> {
     static variable_list forward(AutogradContext* context, at::TensorList tensors, const at::Tensor& weight,
-                                 const at::Tensor& head, const at::Tensor& head_bias, const at::Tensor& bend,
-                                 const at::Tensor& bend_bias, const at::Tensor& bones,
-                                 const c10::intrusive_ptr<Bending>& bending) {
+                                 const at::Tensor& head, const at::Tensor& head_bias, const at::Tensor& lie,
+                                 const at::Tensor& lie_bias, const at::Tensor& bones,
+                                 const c10::intrusive_ptr<ChainOptions>& options) {
         Stack stack(tensors, 2);
         stack.make_traces(true);
-        const PoseTensors poses{weight, head, head_bias, bend, bend_bias, bones};
-        const PoseTraces trace(stack, head.size(0), bending->chains != nullptr);
+        const PoseTensors poses{weight, head, head_bias, lie, lie_bias, bones};
+        const PoseTraces trace(stack, head.size(0), options->chains != nullptr);
         const LayerTimer timer("GRU, fed back");
         by_type(weight, [&](auto number) {
             using T = decltype(number);
-            with_feedback<T>(stack, poses, *bending, trace, nullptr,
+            with_feedback<T>(stack, poses, *options, trace, nullptr,
                              [&](cpu::PoseFeedback<T>& feedback) { stack.run<T>(&feedback); });
         });
         auto saved = tensors.vec();
-        for (const auto* more : {&weight, &head, &head_bias, &bend, &bend_bias, &bones})
-            saved.push_back(*more);
+        for (const auto* more : {&weight, &head, &head_bias, &lie, &lie_bias, &bones}) saved.push_back(*more);
         const auto none = at::empty({0}, weight.options());
-        const auto inner = bending->chains ? trace.inner : none,
-                   joints = bending->chains ? trace.joints : none;
+        const auto inner = options->chains ? trace.inner : none,
+                   joints = options->chains ? trace.joints : none;
         for (const auto& more :
              {stack.gates[0], stack.gates[1], stack.states[0], stack.states[1], trace.out, inner, joints})
             saved.push_back(more);
         context->save_for_backward(saved);
-        context->saved_data["bending"] = c10::IValue::make_capsule(bending);
+        context->saved_data["options"] = c10::IValue::make_capsule(options);
         return {trace.out, joints};
     }
 
@@ -276,35 +276,35 @@ struct FedBackPoses : Function<FedBackPoses> {
         stack.states = {s[8], s[9]};
         PoseTraces trace;
         trace.out = s[10];
-        const auto capsule = context->saved_data["bending"].toCapsule();
-        const auto& bending = static_cast<const Bending&>(*capsule);
-        const bool bent = bending.chains != nullptr;
-        if (bent) {
+        const auto capsule = context->saved_data["options"].toCapsule();
+        const auto& options = static_cast<const ChainOptions&>(*capsule);
+        const bool is_lie = options.chains != nullptr;
+        if (is_lie) {
             trace.inner = s[11];
             trace.joints = s[12];
         }
         StackGradients to(stack);
         const auto numbers = trace.out.size(2);
-        const auto raw = stack.rows(numbers), bend = bent ? stack.rows(numbers - 3) : at::Tensor();
+        const auto raw = stack.rows(numbers), lie = is_lie ? stack.rows(numbers - 3) : at::Tensor();
         const auto to_out = grads[0].contiguous(), to_joints = grads[1].contiguous();
         const LayerTimer timer("GRU, fed back", true);
         by_type(raw, [&](auto number) {
             using T = decltype(number);
             const cpu::PoseGradient<T> gradient{in<T>(to_out), if_there<T>(to_joints), in<T>(raw),
-                                                in<T>(bend)};
-            with_feedback<T>(stack, poses, bending, trace, &gradient,
+                                                in<T>(lie)};
+            with_feedback<T>(stack, poses, options, trace, &gradient,
                              [&](cpu::PoseFeedback<T>& feedback) { to.run<T>(stack, &feedback, nullptr); });
         });
         auto all = to.all(stack);
-        const auto& fed = bent && bending.feeds_joints ? trace.joints : trace.out;
-        for (auto& more : pose_gradients(poses, to, fed, stack.states[1], trace, raw, bend))
+        const auto& fed = is_lie && options.feeds_joints ? trace.joints : trace.out;
+        for (auto& more : pose_gradients(poses, to, fed, stack.states[1], trace, raw, lie))
             all.push_back(std::move(more));
         all.insert(all.end(), {at::Tensor(), at::Tensor()});
         return all;
     }
 };
 
-struct BentJoints : Function<BentJoints> {
+struct ChainKinematics : Function<ChainKinematics> {
     template <typename Run>
     static void for_parts(std::int64_t rows, const Run& run) {
         at::parallel_for(0, rows, 64,
@@ -312,19 +312,19 @@ struct BentJoints : Function<BentJoints> {
     }
 
     static at::Tensor forward(AutogradContext* context, const at::Tensor& poses, const at::Tensor& bones,
-                              const c10::intrusive_ptr<Bending>& bending) {
+                              const c10::intrusive_ptr<ChainOptions>& options) {
         auto joints = at::empty_like(poses);
         const LayerTimer timer("chains of bones");
         by_type(poses, [&](auto number) {
             using T = decltype(number);
             const auto width = poses.size(1);
             for_parts(poses.size(0), [&](std::int64_t first, std::int64_t count) {
-                cpu::bend_forward<T>(*bending->chains, count, in<T>(poses) + first * width,
-                                     in<T>(bones) + first * width / 3, in<T>(joints) + first * width);
+                cpu::chain_kinematics<T>(*options->chains, count, in<T>(poses) + first * width,
+                                         in<T>(bones) + first * width / 3, in<T>(joints) + first * width);
             });
         });
         context->save_for_backward({poses, bones});
-        context->saved_data["bending"] = c10::IValue::make_capsule(bending);
+        context->saved_data["options"] = c10::IValue::make_capsule(options);
         return joints;
     }
 
@@ -332,17 +332,17 @@ struct BentJoints : Function<BentJoints> {
         const auto saved = context->get_saved_variables();
         const auto &poses = saved[0], &bones = saved[1];
         const auto grad = grads[0].contiguous();
-        const auto capsule = context->saved_data["bending"].toCapsule();
-        const auto& bending = static_cast<const Bending&>(*capsule);
+        const auto capsule = context->saved_data["options"].toCapsule();
+        const auto& options = static_cast<const ChainOptions&>(*capsule);
         auto to = at::empty_like(poses);
         const LayerTimer timer("chains of bones", true);
         by_type(poses, [&](auto number) {
             using T = decltype(number);
             const auto width = poses.size(1);
             for_parts(poses.size(0), [&](std::int64_t first, std::int64_t count) {
-                cpu::bend_backward<T>(*bending.chains, count, in<T>(poses) + first * width,
-                                      in<T>(bones) + first * width / 3, in<T>(grad) + first * width,
-                                      in<T>(to) + first * width);
+                cpu::chain_kinematics_backward<T>(*options.chains, count, in<T>(poses) + first * width,
+                                                  in<T>(bones) + first * width / 3,
+                                                  in<T>(grad) + first * width, in<T>(to) + first * width);
             });
         });
         return {to, {}, {}};
@@ -358,20 +358,21 @@ at::Tensor fused_gru(const GruInputs& inputs, const std::vector<GruTensors>& cel
 
 FusedPoses fused_fed_back_poses(const GruInputs& inputs, const std::vector<GruTensors>& cells,
                                 const at::Tensor& weight, const LinearTensors& head,
-                                const BentTensors& bent) {
+                                const ChainBodyTensors& body) {
     const auto tensors = tensors_of(inputs, cells);
     const auto none = at::empty({0}, head.weight.options());
-    const bool bends = bent.chains != nullptr;
+    const bool is_lie = body.chains != nullptr;
     const auto out = FedBackPoses::apply(at::TensorList(tensors), weight.contiguous(), head.weight, head.bias,
-                                         bends ? bent.weight.weight : none, bends ? bent.weight.bias : none,
-                                         bends ? bent.bones.contiguous() : none,
-                                         c10::make_intrusive<Bending>(bent.chains, bent.feeds_joints));
-    return {out[0], bends ? out[1] : at::Tensor()};
+                                         is_lie ? body.weight.weight : none, is_lie ? body.weight.bias : none,
+                                         is_lie ? body.bones.contiguous() : none,
+                                         c10::make_intrusive<ChainOptions>(body.chains, body.feeds_joints));
+    return {out[0], is_lie ? out[1] : at::Tensor()};
 }
 
 FusedPoses fused_sampled_poses(const PriorTensors& prior, const GruInputs& inputs,
                                const std::vector<GruTensors>& cells, const at::Tensor& weight,
-                               const LinearTensors& head, const BentTensors& bent, const at::Tensor& noise) {
+                               const LinearTensors& head, const ChainBodyTensors& body,
+                               const at::Tensor& noise) {
     const at::NoGradGuard no_gradients;
     const auto width = 3 * cells[0].hidden.weight.size(1);
     auto with_products = inputs;
@@ -381,14 +382,14 @@ FusedPoses fused_sampled_poses(const PriorTensors& prior, const GruInputs& input
     stack.make_traces(false);
     const Stack prior_stack(of_prior, 1);
     const auto none = at::empty({0}, noise.options());
-    const bool bends = bent.chains != nullptr;
+    const bool is_lie = body.chains != nullptr;
     const PoseTensors poses{weight.contiguous(),
                             head.weight,
                             head.bias,
-                            bends ? bent.weight.weight : none,
-                            bends ? bent.weight.bias : none,
-                            bends ? bent.bones.contiguous() : none};
-    const PoseTraces trace(stack, head.weight.size(0), bends);
+                            is_lie ? body.weight.weight : none,
+                            is_lie ? body.weight.bias : none,
+                            is_lie ? body.bones.contiguous() : none};
+    const PoseTraces trace(stack, head.weight.size(0), is_lie);
     const auto pose = prior.pose.contiguous(), latent = prior.latent.contiguous(),
                normals = noise.contiguous();
     const LayerTimer timer("GRU, sampled");
@@ -401,7 +402,7 @@ FusedPoses fused_sampled_poses(const PriorTensors& prior, const GruInputs& input
                                            in<T>(latent),
                                            in<T>(normals),
                                            noise.size(2)};
-        with_feedback<T>(stack, poses, Bending(bent.chains, bent.feeds_joints), trace, nullptr,
+        with_feedback<T>(stack, poses, ChainOptions(body.chains, body.feeds_joints), trace, nullptr,
                          [&](cpu::PoseFeedback<T>& feedback) {
                              cpu::PoseSampler<T> sampler(stack.shape, feedback, weights,
                                                          in<T>(stack.tensors[0]), at::get_num_threads());
@@ -411,9 +412,10 @@ FusedPoses fused_sampled_poses(const PriorTensors& prior, const GruInputs& input
     return {trace.out, trace.joints};
 }
 
-at::Tensor fused_bent_joints(const cpu::Chains& chains, const at::Tensor& poses, const at::Tensor& bones) {
-    return BentJoints::apply(poses.contiguous(), bones.contiguous(),
-                             c10::make_intrusive<Bending>(&chains, false));
+at::Tensor fused_chain_kinematics(const cpu::Chains& chains, const at::Tensor& poses,
+                                  const at::Tensor& bones) {
+    return ChainKinematics::apply(poses.contiguous(), bones.contiguous(),
+                                  c10::make_intrusive<ChainOptions>(&chains, false));
 }
 
 }  // namespace actformer::model

@@ -28,7 +28,7 @@ struct HeldSkeleton : torch::CustomClassHolder {
     explicit HeldSkeleton(std::shared_ptr<const cpu::RestSkeleton> of) : skeleton(std::move(of)) {}
 };
 
-struct TurnedJoints : Function<TurnedJoints> {
+struct ForwardKinematics : Function<ForwardKinematics> {
     static at::Tensor forward(AutogradContext* context, const at::Tensor& rotations,
                               const c10::intrusive_ptr<HeldSkeleton>& held) {
         const auto shape = rotations_shape(rotations);
@@ -36,7 +36,7 @@ struct TurnedJoints : Function<TurnedJoints> {
                                    rotations.options());
         timed("joints", false, rotations, [&](auto number) {
             using T = decltype(number);
-            cpu::turned_joints<T>(*held->skeleton, shape, in<T>(rotations), in<T>(positions), threads());
+            cpu::forward_kinematics<T>(*held->skeleton, shape, in<T>(rotations), in<T>(positions), threads());
         });
         context->save_for_backward({rotations});
         context->saved_data["skeleton"] = c10::IValue::make_capsule(held);
@@ -50,8 +50,8 @@ struct TurnedJoints : Function<TurnedJoints> {
         auto gradient = at::empty_like(rotations);
         timed("joints", true, rotations, [&](auto number) {
             using T = decltype(number);
-            cpu::turned_joints_back<T>(skeleton, rotations_shape(rotations), in<T>(rotations), in<T>(from),
-                                       in<T>(gradient), threads());
+            cpu::forward_kinematics_backward<T>(skeleton, rotations_shape(rotations), in<T>(rotations),
+                                                in<T>(from), in<T>(gradient), threads());
         });
         return {gradient, {}};
     }
@@ -85,7 +85,7 @@ struct JointError : Function<JointError> {
 at::Tensor fused_joint_positions(const std::shared_ptr<const cpu::RestSkeleton>& skeleton,
                                  const at::Tensor& rotations) {
     check_fits(*skeleton, rotations);
-    return TurnedJoints::apply(rotations.contiguous(), c10::make_intrusive<HeldSkeleton>(skeleton));
+    return ForwardKinematics::apply(rotations.contiguous(), c10::make_intrusive<HeldSkeleton>(skeleton));
 }
 
 at::Tensor fused_joint_error(const cpu::RestSkeleton& skeleton, const at::Tensor& made,

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "model/cpu/turned_joints.hpp"
+#include "model/cpu/forward_kinematics.hpp"
 
 namespace actformer::model {
 

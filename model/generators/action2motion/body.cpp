@@ -32,7 +32,7 @@ at::Tensor down_the_tree(const ingest::Topology& tree, const at::Tensor& root, c
 
 }  // namespace
 
-at::Tensor bent_joints(const Chains& chains, const at::Tensor& poses, const at::Tensor& bones) {
+at::Tensor chain_kinematics(const Chains& chains, const at::Tensor& poses, const at::Tensor& bones) {
     std::vector<at::Tensor> joints(chains.directions.size());
     joints[0] = joint_at(poses, 0);
     for (const auto& chain : chains.joints) {

@@ -9,8 +9,8 @@
 namespace actformer::model::action2motion {
 
 /// poses (N, 3J): the root's position, then one axis times angle a joint; bones (N, J) lengths -> joints (N, 3J). Every chain
-/// begins unbent: R = I; along it R = R exp(w_j), p_j = p_before + R (length_j direction_j).
-at::Tensor bent_joints(const Chains& chains, const at::Tensor& poses, const at::Tensor& bones);
+/// begins with R = I; along it R = R exp(w_j), p_j = p_before + R (length_j direction_j).
+at::Tensor chain_kinematics(const Chains& chains, const at::Tensor& poses, const at::Tensor& bones);
 
 /// joints (N, 3J) -> (N, J), 0 for the root.
 at::Tensor bone_lengths(const Chains& chains, const at::Tensor& joints);

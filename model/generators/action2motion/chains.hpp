@@ -1,4 +1,4 @@
-// Chains of bones that bodies of rotations bend along (Action2Motion, section 3.3), and how a bone points where nothing is bent.
+// Chains of bones for forward kinematics (Action2Motion, section 3.3), and how a bone points where nothing is rotated.
 // Knows nothing of torch.
 #pragma once
 

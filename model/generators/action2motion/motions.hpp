@@ -23,7 +23,7 @@ class MotionNumbers {
     at::Tensor bones(std::int64_t motions) const;
 
   private:
-    bool bends() const { return settings_.body == Body::lie; }
+    bool is_lie() const { return settings_.body == Body::lie; }
 
     Settings settings_;
 };

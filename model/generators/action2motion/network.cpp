@@ -75,8 +75,8 @@ at::Tensor Network::condition(const at::Tensor& labels, std::int64_t frame) cons
 at::Tensor Network::headed(const at::Tensor& state) const {
     const auto out = linear("decoder.output", state);
     if (!chains_) return out;
-    const auto bent = linear("decoder.output_lie", out.slice(-1, 3).tanh()).tanh() * widest;
-    return at::cat({out.slice(-1, 0, 3), bent}, -1);
+    const auto angles = linear("decoder.output_lie", out.slice(-1, 3).tanh()).tanh() * widest;
+    return at::cat({out.slice(-1, 0, 3), angles}, -1);
 }
 
 Distribution Network::distribution(const std::string& network, const at::Tensor& state) const {
@@ -108,7 +108,7 @@ Outcome Network::frame_by_frame(const at::Tensor& real, const at::Tensor& labels
         keep(priors, distribution("prior_net", prior.step({seen, about})));
         const auto out = headed(decoder.step({seen, about, drawn(found, noise[t])}));
         // A real skeleton lends its bones, frame by frame.
-        const auto pose = chains_ ? bent_joints(*chains_, out, bone_lengths(*chains_, truth)) : out;
+        const auto pose = chains_ ? chain_kinematics(*chains_, out, bone_lengths(*chains_, truth)) : out;
         outs.push_back(out);
         poses.push_back(pose);
         seen = !own ? truth : settings_.feedback == Feedback::joints ? pose : out;
@@ -171,7 +171,7 @@ Distribution Network::distribution_of_all(const std::string& network, const at::
 }
 
 /// A Lie body's rotations; bones (T, N, joints).
-BentTensors Network::bent(const at::Tensor& bones) const {
+ChainBodyTensors Network::chain_body(const at::Tensor& bones) const {
     if (!chains_) return {};
     return {{weights_.at("decoder.output_lie.weight"), weights_.at("decoder.output_lie.bias")},
             &*chains_,
@@ -193,12 +193,12 @@ std::pair<at::Tensor, at::Tensor> Network::decoded(const at::Tensor& real, const
         const auto poses =
             fused_fed_back_poses(inputs, cells("decoder", 2), gates.of_poses(),
                                  {weights_.at("decoder.output.weight"), weights_.at("decoder.output.bias")},
-                                 bent(chains_ ? lengths.view({frames, samples, -1}) : lengths));
+                                 chain_body(chains_ ? lengths.view({frames, samples, -1}) : lengths));
         return {poses.out, chains_ ? poses.joints : poses.out};
     }
     const auto out = headed(fused_gru(inputs, cells("decoder", 2)));
     if (!chains_) return {out, out};
-    return {out, fused_bent_joints(*chains_, out.flatten(0, 1), lengths).view_as(real)};
+    return {out, fused_chain_kinematics(*chains_, out.flatten(0, 1), lengths).view_as(real)};
 }
 
 /// The posterior sees the truth alone, the prior what the decoder has seen: each goes through all frames at once.
@@ -238,7 +238,8 @@ at::Tensor Network::generate_at_once(const at::Tensor& labels, const at::Tensor&
         chains_ ? bones.unsqueeze(0).expand({frames, bones.size(0), bones.size(1)}) : at::Tensor();
     const auto made = fused_sampled_poses(
         prior, of_decoder.inputs(labels, frames), cells("decoder", 2), of_decoder.of_poses(),
-        {weights_.at("decoder.output.weight"), weights_.at("decoder.output.bias")}, bent(lengths), noise);
+        {weights_.at("decoder.output.weight"), weights_.at("decoder.output.bias")}, chain_body(lengths),
+        noise);
     return chains_ ? made.joints : made.out;
 }
 
@@ -252,7 +253,7 @@ at::Tensor Network::generate_frame_by_frame(const at::Tensor& labels, const at::
         const auto about = condition(labels, t);
         const auto z = drawn(distribution("prior_net", prior.step({seen, about})), noise[t]);
         const auto out = headed(decoder.step({seen, about, z}));
-        poses.push_back(chains_ ? bent_joints(*chains_, out, bones) : out);
+        poses.push_back(chains_ ? chain_kinematics(*chains_, out, bones) : out);
         seen = settings_.feedback == Feedback::joints ? poses.back() : out;
     }
     return at::stack(poses);

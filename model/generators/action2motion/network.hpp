@@ -63,7 +63,7 @@ class Network : public torch::nn::Module {
                                 const at::Tensor& bones) const;
     at::Tensor generate_frame_by_frame(const at::Tensor& labels, const at::Tensor& noise,
                                        const at::Tensor& bones) const;
-    BentTensors bent(const at::Tensor& bones) const;
+    ChainBodyTensors chain_body(const at::Tensor& bones) const;
     std::vector<GruTensors> cells(const std::string& network, int count) const;
     Distribution distribution_of_all(const std::string& network, const at::Tensor& poses,
                                      const at::Tensor& labels) const;

@@ -270,10 +270,10 @@ TEST_F(Action2Motion, ThePapersSizeAgreesInFloat) {
     for (const auto& [name, values] : theirs) expect_near(ours.at(name), values, 1e-4, name);
 }
 
-TEST_F(Action2Motion, BendsJointsAsBonesAreLong) {
+TEST_F(Action2Motion, PlacesJointsAsBonesAreLong) {
     const auto chains = *chains_of(ingest::smpl24().parents);
     const auto bones = at::rand({7, 24}, at::kDouble),
-               joints = bent_joints(chains, at::randn({7, 72}, at::kDouble), bones);
+               joints = chain_kinematics(chains, at::randn({7, 72}, at::kDouble), bones);
     expect_near(bone_lengths(chains, joints).slice(1, 1), bones.slice(1, 1), 1e-12, "lengths");
     EXPECT_FALSE(chains_of(ingest::gta22().parents));
 }
@@ -300,11 +300,11 @@ TEST_F(Action2Motion, TurnsMotionsIntoPosesAndBack) {
                 EXPECT_TRUE(back.select(3, 25).slice(1, 0, 3).equal(motions.select(3, 25).slice(1, 0, 3)));
             }
         }
-    auto bent = settings_for(tree, 3, 1, Body::lie);
-    bent.representation = Representation::limb;
-    EXPECT_THROW(MotionNumbers(bent, "test"), Error);
-    bent.bone_length.assign(25, 0.3F);
-    const MotionNumbers numbers(bent, "test");
+    auto lie = settings_for(tree, 3, 1, Body::lie);
+    lie.representation = Representation::limb;
+    EXPECT_THROW(MotionNumbers(lie, "test"), Error);
+    lie.bone_length.assign(25, 0.3F);
+    const MotionNumbers numbers(lie, "test");
     const auto limbs = at::randn({2, 3, 4, 25}), unit = limbs / limbs.norm(2, {1}, true);
     const auto back = numbers.motions(numbers.poses(unit));
     EXPECT_TRUE(back.slice(3, 1).allclose(unit.slice(3, 1), 2e-3, 1e-3));

@@ -1,5 +1,5 @@
 // A vector's lanes are frames.
-#include "model/cpu/turned_joints.hpp"
+#include "model/cpu/forward_kinematics.hpp"
 
 #include "model/cpu/gram_schmidt.hpp"
 #include "model/cpu/kernel_support.hpp"
@@ -238,8 +238,8 @@ double person_differences(const RestSkeleton& skeleton, std::int64_t frames, con
 }  // namespace
 
 template <typename T>
-void turned_joints(const RestSkeleton& skeleton, const RotationsShape& shape, const T* rotations, T* to,
-                   int threads) {
+void forward_kinematics(const RestSkeleton& skeleton, const RotationsShape& shape, const T* rotations, T* to,
+                        int threads) {
     const auto joints = static_cast<std::int64_t>(skeleton.parents.size()), frames = shape.frames;
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::int64_t i = 0; i < shape.samples * shape.persons; ++i)
@@ -251,8 +251,8 @@ void turned_joints(const RestSkeleton& skeleton, const RotationsShape& shape, co
 }
 
 template <typename T>
-void turned_joints_back(const RestSkeleton& skeleton, const RotationsShape& shape, const T* rotations,
-                        const T* to_positions, T* to, int threads) {
+void forward_kinematics_backward(const RestSkeleton& skeleton, const RotationsShape& shape,
+                                 const T* rotations, const T* to_positions, T* to, int threads) {
     const auto joints = static_cast<std::int64_t>(skeleton.parents.size()),
                of_person = rotation_numbers * shape.frames * (joints + 1);
 #pragma omp parallel for num_threads(threads) schedule(static)
@@ -261,12 +261,14 @@ void turned_joints_back(const RestSkeleton& skeleton, const RotationsShape& shap
                     to_positions + i * axes * shape.frames * joints, to + i * of_person);
 }
 
-template void turned_joints<float>(const RestSkeleton&, const RotationsShape&, const float*, float*, int);
-template void turned_joints<double>(const RestSkeleton&, const RotationsShape&, const double*, double*, int);
-template void turned_joints_back<float>(const RestSkeleton&, const RotationsShape&, const float*,
-                                        const float*, float*, int);
-template void turned_joints_back<double>(const RestSkeleton&, const RotationsShape&, const double*,
-                                         const double*, double*, int);
+template void forward_kinematics<float>(const RestSkeleton&, const RotationsShape&, const float*, float*,
+                                        int);
+template void forward_kinematics<double>(const RestSkeleton&, const RotationsShape&, const double*, double*,
+                                         int);
+template void forward_kinematics_backward<float>(const RestSkeleton&, const RotationsShape&, const float*,
+                                                 const float*, float*, int);
+template void forward_kinematics_backward<double>(const RestSkeleton&, const RotationsShape&, const double*,
+                                                  const double*, double*, int);
 
 template <typename T>
 double joint_differences(const RestSkeleton& skeleton, const RotationsShape& shape, const T* made,

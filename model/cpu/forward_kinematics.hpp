@@ -24,13 +24,13 @@ struct RotationsShape {
 
 /// Positions of the joints from the root, `to` (samples, persons * 3, frames, joints).
 template <typename T>
-void turned_joints(const RestSkeleton& skeleton, const RotationsShape& shape, const T* rotations, T* to,
-                   int threads);
+void forward_kinematics(const RestSkeleton& skeleton, const RotationsShape& shape, const T* rotations, T* to,
+                        int threads);
 
 /// From gradients to those positions, the gradients to the rotations, `to` (samples, persons * 6, frames, joints + 1).
 template <typename T>
-void turned_joints_back(const RestSkeleton& skeleton, const RotationsShape& shape, const T* rotations,
-                        const T* to_positions, T* to, int threads);
+void forward_kinematics_backward(const RestSkeleton& skeleton, const RotationsShape& shape,
+                                 const T* rotations, const T* to_positions, T* to, int threads);
 
 /// The sum of squared differences between the positions, from the root, of both motions' joints. `to` gets its gradient to `made`.
 template <typename T>
