@@ -133,12 +133,12 @@ void print_motions(const Json& file) {
         counted(file["persons"].get<std::uint64_t>(), "person"), file["fps"].get<double>());
 }
 
-/// Whether some have checksums of their files' bytes.
-bool verify(const std::vector<std::filesystem::path>& folders) {
-    bool of_bytes = false;
+/// Of each, whether its checksums are of the files' bytes.
+std::vector<bool> verify(const std::vector<std::filesystem::path>& folders) {
+    std::vector<bool> of_bytes;
     for (const auto& folder : folders) {
         const auto [faults, checksums_of_bytes] = ingest::verify_dataset(folder);
-        of_bytes |= checksums_of_bytes;
+        of_bytes.push_back(checksums_of_bytes);
         for (std::size_t i = 1; i < faults.size(); ++i) say(stderr, "{}\n", faults[i]);
         if (!faults.empty())
             throw Error("{}{}; ingest the raw data again", faults[0],
@@ -177,7 +177,7 @@ void add_inspect(CLI::App& app) {
             return;
         }
         const auto folders = ingest::datasets_at(options->dataset);
-        const bool of_bytes = options->verify && verify(folders);
+        const auto of_bytes = options->verify ? verify(folders) : std::vector<bool>();
         Json json = Json::array();
         for (const auto& folder : folders) {
             const ingest::Dataset dataset(folder);
@@ -187,14 +187,14 @@ void add_inspect(CLI::App& app) {
                 print_text(dataset, options->classes);
         }
         if (options->json && options->verify)
-            for (auto& one : json) {
-                one["verified"] = true;
-                one["checksums_of"] = of_bytes ? "bytes" : "contents";
+            for (std::size_t i = 0; i < json.size(); ++i) {
+                json[i]["verified"] = true;
+                json[i]["checksums_of"] = of_bytes[i] ? "bytes" : "contents";
             }
         if (options->json) fmt::print("{}\n", (json.size() == 1 ? json[0] : json).dump(2));
         if (options->verify && !options->json)
             say("verified: every checksum, offset and number is right; {}\n",
-                of_bytes
+                std::ranges::count(of_bytes, true) > 0
                     ? "checksums are of the files' bytes (format 1: opening a shard for writing breaks them)"
                     : "checksums are of contents");
     });

@@ -28,7 +28,7 @@ struct DrawnWindow {
 DrawnWindow drawn(const ClipTable& table, const ClassTable& classes, const SamplerOptions& options,
                   std::uint64_t index, std::uint32_t sample, std::uint32_t window);
 
-/// The window (P*C, T, K) of `clip`, the values (frames, P, K, C) of the clip that the chosen names; centred where the table says so.
+/// The window (P*C, T, K) of `clip`, the values (frames, P, K, C) of the clip that `chosen` names; centred where the table says so.
 void show(const ClipTable& table, std::span<const float> clip, const DrawnWindow& chosen, Padding padding,
           std::uint32_t window, std::span<float> to);
 

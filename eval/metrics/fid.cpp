@@ -6,8 +6,6 @@
 #include "base/threads/parallel.hpp"
 
 namespace actformer::eval {
-namespace {}  // namespace
-
 std::vector<std::optional<Moments>> moments_by_class(const Samples& samples, unsigned threads) {
     const auto members = members_by_class(samples);
     std::vector<std::optional<Moments>> out(members.size());

@@ -9,7 +9,7 @@ namespace actformer::eval {
 /// multiplied as a dense matrix counts nothing), in floating-point operations.
 double direct_operations(const StgcnShape& shape, std::uint32_t frames);
 
-/// Those that the multiplies here do: minimal filtering and empty neighbourhoods taken into account.
+/// Those that the multiplies here do: Winograd's minimal filtering and empty neighbourhoods taken into account.
 double multiplied_operations(const StgcnShape& shape, std::uint32_t frames);
 
 }  // namespace actformer::eval

@@ -3,7 +3,7 @@
 //   out[problem] = sum over the problem's segments (panel, set) of a[panel] * w[set]      (rows, depth) x (depth, columns)
 //
 // A graph convolution is one problem a joint, with a segment for each part of its neighbourhood; a temporal convolution is
-// one problem for each point of its minimal filtering.
+// one problem for each point of its Winograd filtering.
 //
 // Data layout                                          BLOCK = TILE_VECTORS * VEC columns
 //   a        (panels, a_rows, A_PITCH)      float      row by row, `depth` numbers of each used

@@ -47,9 +47,12 @@ std::vector<fs::path> checkpoints_in(const fs::path& folder) {
 
 /// Behind a new one: all but it and the one before. What cannot be removed stays.
 void remove_older_checkpoints(const fs::path& folder) {
-    const auto files = checkpoints_in(folder);
-    std::error_code ignored;
-    for (std::size_t i = 2; i < files.size(); ++i) fs::remove(files[i], ignored);
+    try {
+        const auto files = checkpoints_in(folder);
+        std::error_code ignored;
+        for (std::size_t i = 2; i < files.size(); ++i) fs::remove(files[i], ignored);
+    } catch (const Error&) {  // that the folder cannot be listed is said when it is read
+    }
 }
 
 /// As NAME.damaged.

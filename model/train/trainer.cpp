@@ -135,7 +135,7 @@ void Loop::resume() {
         const auto sums = state.at("sums").get<std::vector<double>>();
         for (std::size_t i = 0; i < sums.size(); ++i) learner_.sums()[static_cast<std::int64_t>(i)] = sums[i];
         epoch_seconds_ = state.at("seconds");
-        if (!validations_.take_from(state))
+        if (!validations_.take_from(state, epoch() < settings_.epochs))
             say("the scores so far are of another recogniser or of other numbers of motions: the best "
                 "weights are chosen from now on");
         if (epoch() > settings_.epochs)

