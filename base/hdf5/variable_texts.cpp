@@ -23,11 +23,11 @@ Heap heap_at(std::uint64_t address, const FileBytes& file, std::uint64_t& left) 
     const auto header = file(address, heap_header);
     if (header.size() < heap_header || !header.starts_with(std::string_view("GCOL\1", 5))) return {};
     const auto size = number<std::uint64_t>(header, 8);
-    if (size > left) return {};
+    if (size < heap_header || size > left) return {};
     left -= size;
     const auto bytes = file(address, size);
     Heap heap;
-    for (std::size_t at = heap_header; bytes.size() - at >= object_header;) {
+    for (std::size_t at = heap_header; at + object_header <= bytes.size();) {
         const auto index = number<std::uint16_t>(bytes, at);
         const auto length = number<std::uint64_t>(bytes, at + 8);
         at += object_header;

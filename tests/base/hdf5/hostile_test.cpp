@@ -68,6 +68,21 @@ struct HostileFile : testing::Test {
             H5Dclose);
         ASSERT_GE(set.get(), 0);
     }
+
+    /// An array "name" of texts of variable length.
+    void write_texts(const std::vector<std::string>& texts) const {
+        const hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+        const hdf5::Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+        H5Tset_size(type.get(), H5T_VARIABLE);
+        const hsize_t count = texts.size();
+        const hdf5::Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+        const hdf5::Handle set(
+            H5Dcreate2(file.get(), "name", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+            H5Dclose);
+        std::vector<const char*> values;
+        for (const auto& text : texts) values.push_back(text.c_str());
+        H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+    }
 };
 
 }  // namespace
@@ -210,19 +225,7 @@ TEST_F(HostileFile, ACheckedChunkThatIsNotThereIsRefusedAndNotTakenForZeros) {
 
 TEST_F(HostileFile, TextsOfVariableLengthAreReadOnlyWhereTheyAre) {
     const std::vector<std::string> texts{std::string(7777, 'x'), "", "short", std::string(3333, 'y')};
-    {
-        const hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
-        const hdf5::Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-        H5Tset_size(type.get(), H5T_VARIABLE);
-        const hsize_t count = texts.size();
-        const hdf5::Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-        const hdf5::Handle set(
-            H5Dcreate2(file.get(), "name", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-            H5Dclose);
-        std::vector<const char*> values;
-        for (const auto& text : texts) values.push_back(text.c_str());
-        H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
-    }
+    write_texts(texts);
     EXPECT_EQ(hdf5::Reader(path).read_strings("name"), texts);
     const auto whole = read_file(path);
     EXPECT_EQ(hdf5::Reader(whole, "in memory").read_strings("name"), texts);
@@ -241,6 +244,19 @@ TEST_F(HostileFile, TextsOfVariableLengthAreReadOnlyWhereTheyAre) {
                 EXPECT_NE(std::string(e.what()).find("damaged"), std::string::npos) << e.what();
             }
         }
+}
+
+TEST_F(HostileFile, AHeapOfTextsSmallerThanItsHeaderIsRefused) {
+    write_texts({"walk", "run"});
+    auto bytes = read_file(path);
+    const auto heap = bytes.find("GCOL");
+    ASSERT_NE(heap, std::string::npos);
+    bytes.replace(heap + 9, 7, 7, '\0');
+    for (char size = 0; size < 24; ++size) {
+        bytes[heap + 8] = size;
+        const auto why = refusal([&] { hdf5::Reader(bytes, "in memory").read_strings("name"); });
+        EXPECT_NE(why.find("'name' cannot be read: damaged"), std::string::npos) << int{size} << ": " << why;
+    }
 }
 
 TEST_F(HostileFile, WhatIsNoFileIsRefusedAtOnce) {
