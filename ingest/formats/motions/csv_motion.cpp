@@ -172,11 +172,13 @@ class Table {
     CsvMotion arranged() const {
         CsvMotion motion{last_frame_ + 1, last_person_ + 1, names_.size(), {}};
         // Frames and persons that no line speaks of cost memory: as much as a clip may have, and no more than a hundred for each line.
-        const auto bodies = motion.frames * motion.persons;
-        if (bodies > 100 * (rows_.size() + 1) || bodies * motion.joints * 3 > most_numbers)
+        const auto most_bodies =
+            std::min<std::uint64_t>(100 * (rows_.size() + 1), most_numbers / (motion.joints * 3));
+        if (motion.frames > most_bodies || motion.persons > most_bodies / motion.frames)
             throw Error(
                 "{} frames of {} persons for {} lines: frames and persons are numbered from 0, one by one",
                 motion.frames, motion.persons, rows_.size());
+        const auto bodies = motion.frames * motion.persons;
         motion.positions.assign(bodies * motion.joints * 3, nothing);
         std::vector<bool> seen(bodies * motion.joints);
         for (const auto& row : rows_) {

@@ -86,6 +86,8 @@ TEST(CsvMotion, NamesWhatIsWrong) {
     EXPECT_EQ(fault("frame,joint,x,y,z\n-1,1,1,2,3\n"), "line 2: '-1' is no number of a frame, from 0");
     EXPECT_EQ(fault("frame,joint,x,y,z\n0,1,1,2,3\n0,left knee,1,2,3\n"),
               "joint 'left knee' of person 0 is there twice in frame 0");
-    EXPECT_NE(fault("frame,joint,x,y,z\n4000000000,1,1,2,3\n").find("numbered from 0, one by one"),
-              std::string::npos);
+    for (const auto* place : {"4000000000,0", "0,4000000000", "4294967295,4294967295"})
+        EXPECT_NE(fault(fmt::format("frame,person,joint,x,y,z\n{},1,1,2,3\n", place)).find("numbered from 0"),
+                  std::string::npos)
+            << place;
 }
