@@ -19,16 +19,6 @@ std::size_t parts_of(const std::string& path) {
     return 1 + static_cast<std::size_t>(std::count(path.begin(), path.end(), '/'));
 }
 
-/// The last `folders` + 1 parts of a path, joined by _.
-std::string joined_end(const std::string& path, std::size_t folders) {
-    auto begin = path.size();
-    for (std::size_t i = 0; i <= folders && begin != 0 && begin != std::string::npos; ++i)
-        begin = begin == 0 ? 0 : path.rfind('/', begin - 1);
-    std::string out = path.substr(begin == std::string::npos ? 0 : begin + 1);
-    std::replace(out.begin(), out.end(), '/', '_');
-    return out;
-}
-
 }  // namespace
 
 std::string path_for_names(const RawText& raw) {
@@ -37,6 +27,15 @@ std::string path_for_names(const RawText& raw) {
     const bool in_archive = before > 0 && raw.path[before - 1] == ':';
     if (in_archive) return std::string(inside);
     return std::string(without_extension(fs::absolute(raw.path).lexically_normal().string()));
+}
+
+std::string name_of_path(const std::string& path, std::size_t folders) {
+    auto begin = path.size();
+    for (std::size_t i = 0; i <= folders && begin != 0 && begin != std::string::npos; ++i)
+        begin = path.rfind('/', begin - 1);
+    auto name = path.substr(begin == std::string::npos ? 0 : begin + 1);
+    std::replace(name.begin(), name.end(), '/', '_');
+    return printable(name);
 }
 
 ClipNames::ClipNames(const std::string& pattern, const fs::path& labels) {
@@ -100,12 +99,11 @@ std::variant<ClipNames::Known, Rejection> ClipNames::known(const std::string& pa
     return out;
 }
 
-void ClipNames::note(const RawText& raw) {
-    auto path = path_for_names(raw);
+void ClipNames::note(std::string path, std::uint64_t index) {
     const auto found = known(path);
-    if (!any_noted_ || raw.index < first_index_) {
-        first_path_ = raw.stem;
-        first_index_ = raw.index;
+    if (!any_noted_ || index < first_index_) {
+        first_path_ = path.substr(path.rfind('/') + 1);
+        first_index_ = index;
         any_noted_ = true;
     }
     if (std::holds_alternative<Rejection>(found)) return;
@@ -131,12 +129,7 @@ void ClipNames::settle() {
     folders_ = 0;  // the very same paths, in several archives: the pipeline takes the first of each name
 }
 
-std::string ClipNames::name_of(const std::string& path) const {
-    return printable(joined_end(path, folders_));
-}
-
-std::variant<std::vector<NamedClip>, Rejection> ClipNames::clips_of(const RawText& raw) const {
-    const auto path = path_for_names(raw);
+std::variant<std::vector<NamedClip>, Rejection> ClipNames::clips_of(const std::string& path) const {
     auto found = known(path);
     if (auto* rejection = std::get_if<Rejection>(&found)) return std::move(*rejection);
     const auto& file = std::get<Known>(found);

@@ -15,6 +15,12 @@
 
 namespace actformer::ingest {
 
+/// Where a file is, without its extension: from the top where it is on disk, from the archive's top where it is in one.
+std::string path_for_names(const RawText& raw);
+
+/// What a clip is called after its path: the last `folders` + 1 parts, joined by _, fit for print.
+std::string name_of_path(const std::string& path, std::size_t folders);
+
 /// A clip, before its file is read.
 struct NamedClip {
     std::string name;
@@ -37,14 +43,20 @@ class ClipNames {
     std::string settings() const;
 
     /// Notes a file that will be asked for. One thread at a time.
-    void note(const RawText& raw);
+    void note(const RawText& raw) { note(path_for_names(raw), raw.index); }
+
+    /// The same for what lies in a file: `path` is that of the file, as path_for_names() has it, with the part's name behind.
+    void note(std::string path, std::uint64_t index);
 
     /// After the last note(): clips are called after their files' names, with as many folders before them, joined by _, as tell all
     /// files apart. Throws Error where no file noted has a clip.
     void settle();
 
     /// The clips of a file, at least one, or why there is none.
-    std::variant<std::vector<NamedClip>, Rejection> clips_of(const RawText& raw) const;
+    std::variant<std::vector<NamedClip>, Rejection> clips_of(const RawText& raw) const {
+        return clips_of(path_for_names(raw));
+    }
+    std::variant<std::vector<NamedClip>, Rejection> clips_of(const std::string& path) const;
 
     /// The same for files that are persons of one clip: what their fields say but for {person}. Empty where there is no such field, or
     /// no clip.
@@ -67,7 +79,7 @@ class ClipNames {
         std::string group;  ///< the pattern's fields but {person}; empty where it has no such field
     };
     std::variant<Known, Rejection> known(const std::string& path) const;
-    std::string name_of(const std::string& path) const;
+    std::string name_of(const std::string& path) const { return name_of_path(path, folders_); }
 
     std::optional<NamePattern> pattern_;
     std::vector<std::size_t> kept_;  ///< which of the pattern's fields are not in the labels, {person} apart
@@ -77,13 +89,10 @@ class ClipNames {
     std::vector<std::string> fields_;
     std::vector<std::string> paths_;  ///< noted, of files with clips
     std::vector<bool> used_;          ///< (rows of the labels)
-    std::string first_path_, first_fault_;
+    std::string first_path_;
     std::uint64_t first_index_ = 0;
     bool any_noted_ = false, groups_ = false;
     std::size_t folders_ = 0;  ///< before a file's name
 };
-
-/// Where a file is, without its extension: from the top where it is on disk, from the archive's top where it is in one.
-std::string path_for_names(const RawText& raw);
 
 }  // namespace actformer::ingest

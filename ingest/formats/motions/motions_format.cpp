@@ -45,28 +45,12 @@ T commonest(const std::map<T, std::uint64_t>& counts) {
         ->first;
 }
 
-/// The last `folders` + 1 parts of a path, joined by _.
-std::string end_of(const std::string& path, std::size_t folders) {
-    auto begin = path.size();
-    for (std::size_t i = 0; i <= folders && begin != std::string::npos && begin > 0; ++i)
-        begin = path.rfind('/', begin - 1);
-    auto name = path.substr(begin == std::string::npos || begin == 0 ? 0 : begin + 1);
-    std::replace(name.begin(), name.end(), '/', '_');
-    return printable(name);
-}
-
 /// (joints) metres of offsets (joints, 3) from the parent; 0 for the root.
 std::vector<float> lengths_of(const std::vector<float>& rest) {
     std::vector<float> out(rest.size() / 3, 0);
     for (std::size_t j = 1; j < out.size(); ++j)
         out[j] = std::hypot(rest[3 * j], rest[3 * j + 1], rest[3 * j + 2]);
     return out;
-}
-
-std::string inside_without_extension(const RawText& raw) {
-    const auto folders = raw.inside.find_last_of('/');
-    return std::string(raw.inside.substr(0, folders == std::string_view::npos ? 0 : folders + 1)) +
-           std::string(raw.stem);
 }
 
 std::string place_of(const FoundMotion& motion, std::uint64_t clip) {
@@ -79,11 +63,12 @@ std::string place_of(const FoundMotion& motion, std::uint64_t clip) {
 }  // namespace
 
 struct MotionsFormat::Surveyed : MotionFile {
-    std::string path, inside;  ///< of the file; the latter without extension
+    std::string path;       ///< of the file, for messages
+    std::string for_names;  ///< the same, as path_for_names() has it
 
     /// Where a clip is, as names and labels see it.
     std::string path_of(const FoundMotion& motion, std::uint64_t clip) const {
-        auto out = inside;
+        auto out = for_names;
         if (!motion.key.empty()) out += "/" + motion.key;
         if (motion.numbered) out += fmt::format("_{}", clip);
         return out;
@@ -110,7 +95,7 @@ MotionsFormat::MotionsFormat(MotionsOptions options) : options_(std::move(option
 MotionsFormat::~MotionsFormat() = default;
 
 void MotionsFormat::survey(const RawText& raw) {
-    Surveyed file{look_into(raw, arrays_), std::string(raw.path), inside_without_extension(raw)};
+    Surveyed file{look_into(raw, arrays_), std::string(raw.path), path_for_names(raw)};
     const std::lock_guard lock(surveying_);
     files_.emplace(raw.index, std::move(file));
 }
@@ -181,8 +166,7 @@ void MotionsFormat::settle_names() {
     if (names_) {
         for (const auto& [index, file] : files_)
             file.for_each_clip([&, at = index, &from = file](const FoundMotion& motion, std::uint64_t clip) {
-                const auto path = from.path_of(motion, clip);
-                names_->note({path, end_of(path, 0), {}, path, at});
+                names_->note(from.path_of(motion, clip), at);
             });
         names_->settle();
         header.fields = names_->fields();
@@ -192,7 +176,8 @@ void MotionsFormat::settle_names() {
             bool distinct = true;
             for (const auto& [index, file] : files_)
                 file.for_each_clip([&, &from = file](const FoundMotion& motion, std::uint64_t clip) {
-                    distinct = distinct && names.insert(end_of(from.path_of(motion, clip), folders_)).second;
+                    distinct =
+                        distinct && names.insert(name_of_path(from.path_of(motion, clip), folders_)).second;
                 });
             return distinct;
         };
@@ -255,19 +240,18 @@ std::vector<NamedClip> MotionsFormat::told_by_file(const Surveyed& file, const F
     std::optional<std::uint32_t> label;
     if (clip < motion.labels.size() && motion.labels[clip] >= 0)
         label = static_cast<std::uint32_t>(motion.labels[clip]);
-    if (!label) label = label_in(end_of(path, 0));
+    if (!label) label = label_in(name_of_path(path, 0));
     const auto action = !label                         ? unlabelled
                         : *label < file.classes.size() ? printable(file.classes[*label])
                                                        : fmt::format("A{:03}", *label + 1);
-    return {{end_of(path, folders_), action, {action, end_of(file.inside, 0)}, {}, {}}};
+    return {{name_of_path(path, folders_), action, {action, name_of_path(file.for_names, 0)}, {}, {}}};
 }
 
 std::variant<std::vector<NamedClip>, Rejection> MotionsFormat::clips_of(const Surveyed& file,
                                                                         const FoundMotion& motion,
                                                                         std::uint64_t clip) const {
     if (!names_) return told_by_file(file, motion, clip);
-    const auto path = file.path_of(motion, clip);
-    return names_->clips_of({path, end_of(path, 0), {}, path});
+    return names_->clips_of(file.path_of(motion, clip));
 }
 
 std::string MotionsFormat::settings() const {

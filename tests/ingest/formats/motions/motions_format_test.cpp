@@ -36,7 +36,7 @@ struct MotionsOnDevice : testing::Test {
 
     IngestSummary run(const char* out = "out") {
         IngestRequest request;
-        request.raw = {dir / "raw"};
+        request.raw = raw;
         request.out = dir / out;
         request.one_dataset = true;
         request.threads = 2;
@@ -92,6 +92,7 @@ struct MotionsOnDevice : testing::Test {
     }
 
     TempDir dir;
+    std::vector<fs::path> raw{dir / "raw"};
     kernels::Device device;
     MotionsOptions options;
 };
@@ -184,6 +185,35 @@ TEST_F(MotionsOnDevice, FoldersAndNamesTellTheAction) {
     options.pattern = "";
     run("untold");
     EXPECT_EQ(clips_of(made("untold")), (Names{"run_1:motion", "walk_1:motion", "walk_2:motion"}));
+}
+
+TEST_F(MotionsOnDevice, TheFoldersOfClassesMayBeGivenThemselves) {
+    for (const char* name : {"walk/1.npy", "walk/2.npy", "run/1.npy"}) add_npy(name, {5, joint_count, 3});
+    raw = {dir / "raw/walk", dir / "raw/run"};
+    options.pattern = "{action}/{index}";
+    run();
+    EXPECT_EQ(clips_of(made()), (Names{"walk_1:walk", "walk_2:walk", "run_1:run"}));
+    options.pattern = "";
+    run("untold");
+    EXPECT_EQ(clips_of(made("untold")), (Names{"walk_1:motion", "walk_2:motion", "run_1:motion"}));
+    write_file(dir / "labels.csv", "name,label\nwalk/1,slow\nrun/1,fast\n");
+    options.labels = (dir / "labels.csv").string();
+    run("labelled");
+    EXPECT_EQ(clips_of(made("labelled")), (Names{"walk_1:slow", "run_1:fast"}));
+}
+
+TEST_F(MotionsOnDevice, PathsInAnArchiveBeginAtItsTop) {
+    for (const char* name : {"walk/1.npy", "run/1.npy", "1.npy"}) add_npy(name, {5, joint_count, 3});
+    const auto archive = dir / "takes.tar";
+    ASSERT_EQ(run_command("tar -C " + raw[0].string() + " -cf " + archive.string() + " run walk 1.npy").exit,
+              0);
+    raw = {archive};
+    options.pattern = "{action}/{index}";
+    run();
+    EXPECT_EQ(clips_of(made()), (Names{"run_1:run", "walk_1:walk"}));
+    EXPECT_NE(read_file(dir / "out/rejected.csv").find("1.npy,broken,the name does not fit the pattern"),
+              std::string::npos)
+        << read_file(dir / "out/rejected.csv");
 }
 
 TEST_F(MotionsOnDevice, ThePublicLayoutIsStoredToTheBit) {
