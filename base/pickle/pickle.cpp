@@ -26,6 +26,13 @@ void Pickle::run(std::string_view text, const PickleLimits& limits, const Passed
     size_ = machine.taken();
 }
 
+std::vector<PickleValue> Pickle::references() const {
+    std::vector<PickleValue> out;
+    for (const auto& node : store_->nodes)
+        if (node.kind == PickleNode::Kind::reference) out.emplace_back(&node, node.items.front().at());
+    return out;
+}
+
 Pickle::~Pickle() = default;
 Pickle::Pickle(Pickle&&) noexcept = default;
 Pickle& Pickle::operator=(Pickle&&) noexcept = default;

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string_view>
+#include <vector>
 
 #include "base/pickle/value.hpp"
 
@@ -38,6 +39,10 @@ class Pickle {
     Pickle& operator=(Pickle&&) noexcept;
 
     const PickleValue& root() const { return root_; }
+
+    /// The values that lie elsewhere, as PickleValue::reference() knows them, in the file's order; also those that root() does not
+    /// lead to.
+    std::vector<PickleValue> references() const;
 
     /// Bytes of the (unpacked) text that it takes; others may follow.
     std::uint64_t size() const { return size_; }

@@ -149,9 +149,7 @@ TorchTensor tensor_of(const PickleValue& value, const Storages& storages) {
     const auto offset = value[1].whole();
     if (offset < 0) throw Error("byte {}: a tensor that begins at number {}", value.at(), offset);
     check_reach(tensor, static_cast<std::uint64_t>(offset), id.numbers, value.at());
-    const auto storage = storages(id);
-    if (!storage.empty())
-        tensor.numbers = storage.substr(static_cast<std::uint64_t>(offset) * size_of(tensor.type));
+    tensor.numbers = storages(id).substr(static_cast<std::uint64_t>(offset) * size_of(tensor.type));
     return tensor;
 }
 
@@ -295,20 +293,16 @@ std::vector<TorchTensor> read_old(std::string_view bytes) {
     const auto part = fmt::format("the pickle from byte {} on", pickles.at());
     const auto object = pickles.next();
     const auto keys = pickles.next();
-    // Storages lie in the order of their keys; tensors alone tell how large their numbers are.
+    // Storages lie in the order of their keys; tensors alone tell how large their numbers are, also those that nobody asks for.
     std::map<std::string, StorageId> ids;
-    std::vector<TorchTensor> tensors;
     within(part, [&] {
-        collect(
-            object.root(),
-            [&](const StorageId& id) {
-                ids.emplace(id.key, id);
-                return std::string_view{};
-            },
-            tensors);
+        for (const auto& reference : object.references()) {
+            const StorageId id(reference);
+            ids.emplace(id.key, id);
+        }
     });
     const auto storages = old_storages(keys.root(), ids, pickles);
-    tensors.clear();
+    std::vector<TorchTensor> tensors;
     within(part, [&] {
         collect(
             object.root(), [&](const StorageId& id) { return storage_named(storages, id); }, tensors);

@@ -59,7 +59,10 @@ class Cvae(nn.Module):
 
 net = Cvae().eval()
 torch.save(net.state_dict(), 'actor.pt')
-torch.save({'epoch': 5, 'model': net.state_dict(), 'optimiser': torch.optim.AdamW(net.parameters()).state_dict()}, 'actor-old.pt',
+optimiser = torch.optim.AdamW(net.parameters(), lr=0)
+net.decoder(torch.randn(3, D), torch.tensor([0, 2, 1]), 20).sum().backward()
+optimiser.step()
+torch.save({'epoch': 5, 'model': net.state_dict(), 'optimiser': optimiser.state_dict()}, 'actor-old.pt',
            _use_new_zipfile_serialization=False)
 torch.save(Cvae(4).state_dict(), 'four.pt')
 torch.save({**net.state_dict(), 'encoder.skelEmbedding.weight': torch.zeros(D, 6 * K)}, 'wide.pt')

@@ -132,6 +132,20 @@ TEST(TorchFile, ReadsTypesParametersAndDictsInDicts) {
     EXPECT_EQ(torch.tensors()[2].values(), Floats{-12});
 }
 
+TEST(TorchFile, PassesOverTensorsThatNobodyAsksFor) {
+    // An optimiser's state goes by the parameters' numbers, its lists have no keys at all.
+    const auto moments = "}(" + whole(0) + Tensor{.key = "m"}.pickled() + "u";
+    const auto bytes =
+        old_file(dict({{"optimiser", dict({{"state", moments}})},
+                       {"steps", list({Tensor{"Long", "s", 1, 0, {1}, {1}}.pickled()})},
+                       {"model", dict({{"a", Tensor{}.pickled()}})}}),
+                 {{"7", 6, six.bytes}, {"m", 6, six.bytes}, {"s", 1, bytes_of<std::int64_t>({9})}});
+    const TorchFile torch(bytes);
+    ASSERT_EQ(torch.tensors().size(), 1U);
+    EXPECT_EQ(torch.tensors()[0].group, "model");
+    EXPECT_EQ(torch.tensors()[0].values(), (Floats{1, 2, 3, 4, 5, 6}));
+}
+
 TEST(TorchFile, RunsNothing) {
     const auto fault =
         fault_of(old_file(dict({{"a", "cposix\nsystem\n" + tuple({text("touch /tmp/x")}) + "R"}}), {}));
