@@ -4,6 +4,7 @@
 #include <fstream>
 #include <limits>
 
+#include "base/hdf5/attribute_bytes.hpp"
 #include "base/hdf5/checked_chunk.hpp"
 #include "base/hdf5/opening.hpp"
 #include "base/hdf5/variable_texts.hpp"
@@ -69,6 +70,18 @@ herr_t info_by_name(hid_t file, const char* name, H5O_info_t& info) {
 #else
     return H5Oget_info_by_name(file, name, &info, H5P_DEFAULT);
 #endif
+}
+
+/// Where an object's header lies in the file. From 1.12 on the older function alone tells it.
+std::optional<std::uint64_t> header_address(hid_t file, const char* name) {
+#if H5_VERSION_GE(1, 12, 0)
+    H5O_info1_t info;
+    const bool known = H5Oget_info_by_name1(file, name, &info, H5P_DEFAULT) >= 0;
+#else
+    H5O_info_t info;
+    const bool known = H5Oget_info_by_name(file, name, &info, H5P_DEFAULT) >= 0;
+#endif
+    return known ? std::optional<std::uint64_t>(info.addr) : std::nullopt;
 }
 
 }  // namespace
@@ -258,11 +271,17 @@ std::vector<std::string> Reader::read_variable_strings(const Array& array) const
     if (at == HADDR_UNDEF || H5Dget_storage_size(array.set.get()) != array.numbers * 16)
         fail("'{}' holds texts of variable length in pieces; store them at one length, or in one piece",
              array.name);
+    return variable_texts(bytes_at(at, array.numbers * 16), array.numbers, fmt::format("'{}'", array.name));
+}
+
+/// `count` texts that `references` lead to, of what is at `where`.
+std::vector<std::string> Reader::variable_texts(std::string_view references, std::size_t count,
+                                                const std::string& where) const {
     std::vector<std::string> texts;
     const auto file = [&](std::uint64_t offset, std::uint64_t size) { return bytes_at(offset, size); };
-    if (!read_variable_texts(bytes_at(at, array.numbers * 16), file, bytes_, texts) ||
-        texts.size() != array.numbers)
-        fail("'{}' cannot be read: damaged", array.name);
+    if (references.size() < count * 16 ||
+        !read_variable_texts(references.substr(0, count * 16), file, bytes_, texts))
+        fail("{} cannot be read: damaged", where);
     return texts;
 }
 
@@ -288,8 +307,8 @@ bool Reader::has_attribute(const std::string& name, const std::string& of) const
     return H5Aexists(open(of).set.get(), name.c_str()) > 0;  // open() refuses what lies in other files
 }
 
-Reader::Attribute Reader::open_attribute(const std::string& name, const std::string& of, H5T_class_t kind,
-                                         const char* what) const {
+Reader::Attribute Reader::open_attribute(const std::string& name, const std::string& of,
+                                         std::initializer_list<H5T_class_t> kinds, const char* what) const {
     const auto owner = of == "/" ? std::string() : fmt::format("'{}' ", of);
     if (!has_attribute(name, of)) fail("{}has no attribute '{}'", owner, name);
     Attribute attribute{
@@ -299,7 +318,7 @@ Reader::Attribute Reader::open_attribute(const std::string& name, const std::str
         of == "/" ? fmt::format("attribute '{}'", name) : fmt::format("attribute '{}' of '{}'", name, of)};
     attribute.type = Handle(H5Aget_type(attribute.handle.get()), H5Tclose);
     const Handle space(H5Aget_space(attribute.handle.get()), H5Sclose);
-    if (!attribute.type || H5Tget_class(attribute.type.get()) != kind || !space)
+    if (!attribute.type || !space || !std::ranges::count(kinds, H5Tget_class(attribute.type.get())))
         fail("{} holds no {}", attribute.where, what);
     const auto count = std::max<hssize_t>(H5Sget_simple_extent_npoints(space.get()), 0);
     attribute.count = static_cast<std::size_t>(count);
@@ -314,27 +333,37 @@ void Reader::read_attribute(const Attribute& attribute, hid_t as, void* to) cons
 }
 
 std::vector<std::int64_t> Reader::attribute_numbers(const std::string& name, const std::string& of) const {
-    const auto attribute = open_attribute(name, of, H5T_INTEGER, "whole numbers");
+    const auto attribute = open_attribute(name, of, {H5T_INTEGER}, "whole numbers");
     std::vector<std::int64_t> values(attribute.count);
     read_attribute(attribute, H5T_NATIVE_INT64, values.data());
     return values;
 }
 
 std::vector<float> Reader::attribute_floats(const std::string& name, const std::string& of) const {
-    const auto attribute = open_attribute(name, of, H5T_FLOAT, "numbers");
+    const auto attribute = open_attribute(name, of, {H5T_FLOAT, H5T_INTEGER}, "numbers");
     std::vector<float> values(attribute.count);
     read_attribute(attribute, H5T_NATIVE_FLOAT, values.data());
     return values;
 }
 
 std::vector<std::string> Reader::attribute_texts(const std::string& name, const std::string& of) const {
-    const auto attribute = open_attribute(name, of, H5T_STRING, "text");
-    if (H5Tis_variable_str(attribute.type.get()) != 0)
-        fail("{} holds no fixed-length strings", attribute.where);
+    const auto attribute = open_attribute(name, of, {H5T_STRING}, "text");
+    if (H5Tis_variable_str(attribute.type.get()) != 0) return variable_attribute(attribute, name, of);
     const auto size = H5Tget_size(attribute.type.get());
     std::vector<char> text(attribute.count * size);
     read_attribute(attribute, attribute.type.get(), text.data());
     return unpacked(text, attribute.count, size);
+}
+
+std::vector<std::string> Reader::variable_attribute(const Attribute& attribute, const std::string& name,
+                                                    const std::string& of) const {
+    const auto file = [&](std::uint64_t offset, std::uint64_t size) { return bytes_at(offset, size); };
+    const auto header = header_address(file_.get(), of.c_str());
+    const auto references = header ? attribute_bytes(*header, name, file) : std::nullopt;
+    if (!references)
+        fail("{} holds text of variable length that is not in the header; write it as numpy.bytes_('...')",
+             attribute.where);
+    return variable_texts(*references, attribute.count, attribute.where);
 }
 
 }  // namespace actformer::hdf5

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <span>
@@ -58,7 +59,7 @@ class Reader {
     /// Of the root group, or of the array `of`.
     bool has_attribute(const std::string& name, const std::string& of = "/") const;
 
-    /// Whole numbers in an attribute, one or many; the same of other numbers and of texts.
+    /// Whole numbers in an attribute, one or many; the same of numbers with a fraction or without, and of texts of either length.
     std::vector<std::int64_t> attribute_numbers(const std::string& name, const std::string& of = "/") const;
     std::vector<float> attribute_floats(const std::string& name, const std::string& of = "/") const;
     std::vector<std::string> attribute_texts(const std::string& name, const std::string& of = "/") const;
@@ -104,14 +105,18 @@ class Reader {
     void check_layout(Array& array) const;
     static bool has_checked_rows(const Array& array);
     void read_checked_rows(const Array& array, std::uint64_t first, std::span<float> values) const;
-    Attribute open_attribute(const std::string& name, const std::string& of, H5T_class_t kind,
-                             const char* what) const;
+    Attribute open_attribute(const std::string& name, const std::string& of,
+                             std::initializer_list<H5T_class_t> kinds, const char* what) const;
     void read_attribute(const Attribute& attribute, hid_t as, void* to) const;
     void read_into(const Array& array, hid_t type, void* to) const;
     std::string bytes_at(std::uint64_t offset, std::uint64_t size) const;  ///< fewer where the file ends
     std::string checksum_of(const Array& array, const See& see) const;
     std::string contents_but(const std::string& without, const See& see) const;
     std::vector<std::string> read_variable_strings(const Array& array) const;
+    std::vector<std::string> variable_attribute(const Attribute& attribute, const std::string& name,
+                                                const std::string& of) const;
+    std::vector<std::string> variable_texts(std::string_view references, std::size_t count,
+                                            const std::string& where) const;
 
     std::string path_;
     std::string image_;  ///< of a file in memory

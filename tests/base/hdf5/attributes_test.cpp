@@ -1,0 +1,99 @@
+// Attributes as h5py writes them.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "base/error.hpp"
+#include "base/hdf5/reader.hpp"
+#include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
+
+using namespace actformer;
+using namespace actformer::test;
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+struct AttributesOfH5py : testing::Test {
+    TempDir dir;
+    std::filesystem::path path = dir / "file.h5";
+
+    /// Runs `script` with `f` open to write; false where there is no h5py.
+    bool write(const std::string& script, const std::string& how = "") const {
+        write_file(dir / "make.py", "import h5py, numpy\nwith h5py.File('" + path.string() + "', 'w'" + how +
+                                        ") as f:\n" + script);
+        return run_command("/usr/bin/python3 " + (dir / "make.py").string()).exit == 0;
+    }
+};
+
+std::string refusal_of(const hdf5::Reader& file, const std::string& name) {
+    try {
+        file.attribute_texts(name);
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "not refused";
+}
+
+}  // namespace
+
+TEST_F(AttributesOfH5py, AreReadAsTheyUsuallyAre) {
+    const std::string script = R"(
+    f.attrs['representation'] = 'xyz'
+    f.attrs['names'] = ['hips', '', 'gen\u00f6u']
+    f.attrs['fixed'] = numpy.bytes_('xyz')
+    f.attrs['fps'] = 30
+    f.attrs['rate'] = 29.5
+    f['a'] = numpy.zeros(3)
+    f['a'].attrs['of'] = 'an array'
+    f['a'].attrs['fps'] = [1, 2]
+)";
+    for (const std::string how : {"", ", libver='latest'", ", track_order=True"}) {
+        if (!write(script, how)) GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
+        for (const auto& file : {hdf5::Reader(path), hdf5::Reader(read_file(path), "in memory")}) {
+            EXPECT_EQ(file.attribute_texts("representation"), Texts{"xyz"});
+            EXPECT_EQ(file.attribute_texts("names"), (Texts{"hips", "", "gen\xC3\xB6u"}));
+            EXPECT_EQ(file.attribute_texts("fixed"), Texts{"xyz"});
+            EXPECT_EQ(file.attribute_texts("of", "a"), Texts{"an array"});
+            EXPECT_EQ(file.attribute_floats("fps"), std::vector<float>{30});
+            EXPECT_EQ(file.attribute_floats("rate"), std::vector<float>{29.5});
+            EXPECT_EQ(file.attribute_floats("fps", "a"), (std::vector<float>{1, 2}));
+        }
+    }
+}
+
+TEST_F(AttributesOfH5py, OfWhichThereAreManyAreReadOrTheRemedyIsTold) {
+    const std::string script = "    for i in range(200): f.attrs[f'text {i}'] = f'number {i}'\n";
+    if (!write(script)) GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
+    for (const int i : {0, 7, 100, 199})
+        EXPECT_EQ(hdf5::Reader(path).attribute_texts(fmt::format("text {}", i)),
+                  Texts{fmt::format("number {}", i)});
+    ASSERT_TRUE(write(script, ", libver='latest'"));
+    const auto why = refusal_of(hdf5::Reader(path), "text 7");
+    EXPECT_NE(why.find("attribute 'text 7' holds text of variable length"), std::string::npos) << why;
+    EXPECT_NE(why.find("numpy.bytes_"), std::string::npos) << why;
+}
+
+TEST_F(AttributesOfH5py, ThatAreDamagedAreRefused) {
+    if (!write("    f.attrs['names'] = ['" + std::string(1000, 'x') + "', 'y']\n"))
+        GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
+    const auto whole = read_file(path);
+    const std::uint32_t length = 1000;
+    for (const std::uint32_t other : {0x70000000U, 4000000U}) {
+        auto bytes = whole;
+        for (std::size_t at = 0; at + 4 <= bytes.size(); ++at)
+            if (std::memcmp(&bytes[at], &length, 4) == 0) std::memcpy(&bytes[at], &other, 4);
+        EXPECT_NE(refusal_of(hdf5::Reader(bytes, "in memory"), "names").find("damaged"), std::string::npos);
+    }
+    // Whatever a byte is, the answer is a text or an Error.
+    for (std::size_t at = 0; at < whole.size(); ++at) {
+        auto bytes = whole;
+        bytes[at] = static_cast<char>(~bytes[at]);
+        try {
+            const hdf5::Reader file(bytes, "in memory");
+            if (file.has_attribute("names")) file.attribute_texts("names");
+        } catch (const Error&) {
+        }
+    }
+}
