@@ -10,6 +10,7 @@
 #include "ingest/formats/babel/amass_file.hpp"
 #include "ingest/formats/babel/categories.hpp"
 #include "ingest/formats/babel/zoom.hpp"
+#include "ingest/formats/frame_span.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -29,16 +30,13 @@ std::string place_of(const Sequence& sequence, std::size_t label) {
 }
 
 /// Frames that a label spans: the public tools' whole numbers of `rate` frames a second.
-struct Span {
-    std::uint32_t first = 0, last = 0;
-    bool past_end = false;
-};
-
-Span span_of(const Segment& segment, std::uint32_t frames, double rate) {
-    const auto frame = [&](double seconds) { return std::clamp(std::trunc(seconds * rate), 0.0, 4e9); };
-    const double end = segment.end ? frame(*segment.end) : frames;
-    const auto whole = [&](double t) { return static_cast<std::uint32_t>(std::min<double>(t, frames)); };
-    return {whole(segment.start ? frame(*segment.start) : 0), whole(end), end > frames};
+FrameSpan span_of(const Segment& segment, std::uint32_t frames, double rate) {
+    const auto frame = [&](const std::optional<double>& seconds) {
+        return seconds ? std::optional(
+                             static_cast<std::uint64_t>(std::clamp(std::trunc(*seconds * rate), 0.0, 4e9)))
+                       : std::nullopt;
+    };
+    return frame_span(frame(segment.start), frame(segment.end), frames);
 }
 
 /// As the public tools name clips: segment, label, class from 1.
@@ -268,7 +266,7 @@ void BabelFormat::cut(const Labelled& labelled, const RotationalTrack& track,
         for (const auto& category : segment.categories) {
             const auto found = labels_.find(category);
             if (found == labels_.end()) continue;
-            if (span.first >= span.last) {
+            if (span.empty()) {
                 sink.take(dropped(fmt::format("{}: no frame from {} s to {} s; the motion has {:.2f} s",
                                               place_of(sequence, label), segment.start.value_or(0),
                                               segment.end.value_or(0), track.frames() / options_.fps)));
@@ -280,7 +278,7 @@ void BabelFormat::cut(const Labelled& labelled, const RotationalTrack& track,
             clip->fields = {labelled.split, part_of(sequence.feat_p, 2), part_of(sequence.feat_p, 1),
                             printable(sequence.id), printable(segment.text)};
             clip->doubts = doubts;
-            if (span.past_end) clip->doubts.emplace_back("the label ends behind the motion: cut off there");
+            span.add_doubts(clip->doubts);
             sink.take(std::move(clip));
         }
     }

@@ -12,6 +12,7 @@
 #include "base/files/file.hpp"
 #include "base/text/first_few.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/formats/frame_span.hpp"
 #include "ingest/formats/skeletal/persons.hpp"
 #include "ingest/formats/skeletal/rearrange.hpp"
 
@@ -308,10 +309,10 @@ ParsedClip BvhFormat::make_clip(const NamedClip& named, const std::vector<Record
 
     const double fps = options_.recorded_fps > 0 ? options_.recorded_fps : persons[0].fps();
     const std::uint32_t recorded = persons[0].frames;
+    const auto span = frame_span(named.start, named.end, recorded);
     const std::uint32_t first =
         std::max({options_.skip_first, frame_at(settings_.start, fps), named.start.value_or(0)});
-    const std::uint32_t last = std::min(
-        {recorded, settings_.end ? frame_at(*settings_.end, fps) : recorded, named.end.value_or(recorded)});
+    const std::uint32_t last = std::min(span.last, settings_.end ? frame_at(*settings_.end, fps) : recorded);
     if (first >= last)
         return broken(fmt::format("no frame is left of {}: from {} to {}", recorded, first, last));
 
@@ -332,6 +333,7 @@ ParsedClip BvhFormat::make_clip(const NamedClip& named, const std::vector<Record
         if (p == 0) clip->doubts = doubts_of(person, skeletons[p], first);
         clip->persons.push_back({kinematic_joints(person, skeletons[p]), std::move(person.values)});
     }
+    span.add_doubts(clip->doubts);
     return clip;
 }
 

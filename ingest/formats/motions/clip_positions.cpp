@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <type_traits>
 
@@ -14,6 +15,12 @@ constexpr double farthest = 1e6;  // metres: float32 stays exact enough far beyo
 constexpr std::uint64_t bodies_at_once =
     16;  // of 25 joints: 10 kB, which the nearest cache holds a few times
 
+/// Frames are counted in 32 bits from here on.
+std::uint32_t countable(std::uint64_t frames) {
+    return static_cast<std::uint32_t>(
+        std::min<std::uint64_t>(frames, std::numeric_limits<std::uint32_t>::max()));
+}
+
 /// One clip of an array, some bodies at a time. A body is a person in a frame; the persons of a frame follow one another.
 class Reading {
   public:
@@ -23,8 +30,9 @@ class Reading {
           request_(request),
           joints_(array.joints()),
           body_(joints_ * 3),
-          first_(std::min(request.start, array.frames())),
-          frames_(std::min(request.end.value_or(array.frames()), array.frames()) - first_),
+          span_(frame_span(request.start, request.end, countable(array.frames()))),
+          first_(span_.first),
+          frames_(span_.last - std::min(span_.first, span_.last)),
           raw_(bodies_at_once * body_),
           pose_(bodies_at_once * body_),
           placed_(bodies_at_once * body_) {}
@@ -257,6 +265,7 @@ class Reading {
 
     void finish() {
         out_.frames = static_cast<std::uint32_t>(frames_);
+        out_.span = span_;
         for (const double sum : lengths_)
             out_.bone_length.push_back(static_cast<float>(sum / static_cast<double>(frames_)));
     }
@@ -265,6 +274,7 @@ class Reading {
     std::uint64_t clip_;
     const PositionsRequest& request_;
     std::size_t joints_, body_;  ///< of a body: its joints and its numbers
+    FrameSpan span_;
     std::uint64_t first_, frames_;
     std::vector<double> raw_, pose_;  ///< (bodies at once, joints, 3)
     std::vector<float> placed_;       ///< as those

@@ -10,6 +10,7 @@
 
 #include "ingest/dataset/topology.hpp"
 #include "ingest/formats/format.hpp"
+#include "ingest/formats/frame_span.hpp"
 #include "ingest/formats/motions/joint_array.hpp"
 
 namespace actformer::ingest {
@@ -35,6 +36,7 @@ struct ClipPositions {
     std::vector<float>
         bone_length;  ///< (persons, joints) metres, the mean over frames, 0 for the root; of positions, not of limbs
     bool filled = false;  ///< some of it was not seen
+    FrameSpan span;       ///< as the request has it
 };
 
 /// NaN is not seen; a body of zeros alone is not seen either. The bodies seen in most frames are kept, ties going to the first. Gaps are

@@ -343,9 +343,8 @@ class MotionsFormat::FileReader {
         request.end = named.end;
         auto read = read_positions(array, clip, request);
         if (auto* rejection = std::get_if<Rejection>(&read)) return std::move(*rejection);
-        auto& taken = std::get<ClipPositions>(read);
         auto out = std::make_unique<MotionClip>();
-        out->take(std::move(taken));
+        out->take(std::get<ClipPositions>(std::move(read)));
         return out;
     }
 
@@ -378,20 +377,20 @@ class MotionsFormat::FileReader {
                                          static_cast<std::size_t>(bad - motion.values.begin()) /
                                              (std::size_t{motion.persons} * motion.nodes * motion.numbers))};
         auto out = std::make_unique<MotionClip>();
-        const auto start = std::min<std::uint64_t>(named.start.value_or(0), motion.frames),
-                   end = std::min<std::uint64_t>(named.end.value_or(motion.frames), motion.frames);
-        if (start >= end)
+        const auto span = frame_span(named.start, named.end, motion.frames);
+        if (span.empty())
             return Rejection{Rejection::Kind::dropped, "the labels cut out frames that are not there"};
+        span.add_doubts(out->doubts);
         if (!has_unit_limbs(motion) && file_.representation == Representation::limb)
             out->doubts.emplace_back(
                 "limbs that are not of length 1: joint positions? --axes kct and the like takes them so");
         const auto row = std::size_t{motion.persons} * motion.nodes * motion.numbers;
-        out->frames = static_cast<std::uint32_t>(end - start);
+        out->frames = span.last - span.first;
         out->stored = true;
-        motion.values.erase(motion.values.begin() + static_cast<std::ptrdiff_t>(end * row),
+        motion.values.erase(motion.values.begin() + static_cast<std::ptrdiff_t>(span.last * row),
                             motion.values.end());
         motion.values.erase(motion.values.begin(),
-                            motion.values.begin() + static_cast<std::ptrdiff_t>(start * row));
+                            motion.values.begin() + static_cast<std::ptrdiff_t>(span.first * row));
         out->values = std::move(motion.values);
         out->bone_length = lengths(file.details(found.key).bone_length);
         return out;

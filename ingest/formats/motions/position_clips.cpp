@@ -97,6 +97,7 @@ void PositionClip::take(ClipPositions&& positions) {
     frames = positions.frames;
     values = std::move(positions.values);
     bone_length = std::move(positions.bone_length);
+    positions.span.add_doubts(doubts);
     if (positions.filled) doubts.emplace_back("not seen all the time: filled in between");
 }
 

@@ -7,6 +7,7 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "ingest/formats/detections.hpp"
+#include "ingest/formats/frame_span.hpp"
 #include "ingest/formats/ntu/actions.hpp"
 #include "ingest/formats/ntu/name.hpp"
 #include "ingest/formats/ntu/skeleton_file.hpp"
@@ -201,15 +202,16 @@ bool NtuFormat::choose_bodies(SkeletonFile& file, std::size_t persons,
 }
 
 ParsedClip NtuFormat::make_clip(Planned planned, SkeletonFile file) const {
+    const auto span = frame_span(planned.start, planned.end, file.frames);
     if (planned.start || planned.end) {
-        const auto first = planned.start.value_or(0),
-                   last = std::min(planned.end.value_or(file.frames), file.frames);
-        if (first >= last)
+        if (span.empty())
             return Rejection{Rejection::Kind::broken,
-                             fmt::format("no frame is left of {}: from {} to {}", file.frames, first, last)};
-        cut(file, first, last);
+                             fmt::format("no frame is left of {}: from {} to {}", file.frames,
+                                         planned.start.value_or(0), span.last)};
+        cut(file, span.first, span.last);
     }
     auto clip = std::make_unique<NtuClip>();
+    span.add_doubts(clip->doubts);
     clip->dataset = planned.dataset;
     const auto persons = datasets_[clip->dataset].persons,
                seen = static_cast<std::uint32_t>(file.bodies.size());

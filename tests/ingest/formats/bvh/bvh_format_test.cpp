@@ -661,6 +661,19 @@ TEST(BvhFormat, LabelsCutAFileIntoClips) {
     EXPECT_EQ(refusal(*format, person(), "walk_2.bvh"), fmt::format("no row of {} is for it", o.labels));
 }
 
+TEST(BvhFormat, ALabelThatEndsBehindTheFileIsCutOffThereAndSaysSo) {
+    const test::TempDir dir;
+    test::write_file(dir / "labels.csv",
+                     "file,action,start_frame,end_frame\nwalk_1.bvh,whole,0,3\nwalk_1.bvh,long,0,4\n");
+    auto o = options();
+    o.pattern = "";
+    o.labels = (dir / "labels.csv").string();
+    const auto clips = taken(read(*settled(o, {{"walk_1.bvh", person()}}), "walk_1.bvh", person()));
+    ASSERT_EQ(clips.size(), 2U);
+    EXPECT_EQ(clips[0]->doubts, Names{});
+    EXPECT_EQ(clips[1]->doubts, Names{"the label ends behind the motion: cut off there"});
+}
+
 TEST(BvhFormat, ReadsAcclaimFilesWithTheSkeletonsBesideThem) {
     const std::string asf =
         ":root\norder TX TY TZ RX RY RZ\n:bonedata\nbegin\nname lfemur\ndirection 0 -1 0\nlength 15\naxis 0 "

@@ -177,6 +177,23 @@ TEST_F(MotionsOnDevice, ManyClipsOfAnArrayHaveTheirLabels) {
         << summary.remarks[0];
 }
 
+TEST_F(MotionsOnDevice, LabelsThatEndBehindAMotionAreCutOffThereAndSaySo) {
+    add_npy("a.npy", {6, joint_count, 3});
+    add_public("b.h5", {"A001_0"}, {3, joint_count, 4});
+    write_file(dir / "labels.csv",
+               "file,action,start_frame,end_frame\na,walk,0,6\na,run,2,7\nA001_0,walk,0,4\nA001_0,run,1,5\n");
+    options.labels = (dir / "labels.csv").string();
+    const auto summary = run();
+    const auto dataset = made();
+    EXPECT_EQ(dataset.clips()[*dataset.find("a_2-7")].frames, 4U);
+    EXPECT_EQ(dataset.clips()[*dataset.find("A001_0_1-5")].frames, 3U);
+    const auto doubt = std::find_if(summary.doubts.begin(), summary.doubts.end(), [](const auto& one) {
+        return one.what == "the label ends behind the motion: cut off there";
+    });
+    ASSERT_NE(doubt, summary.doubts.end());
+    EXPECT_EQ(doubt->first, (Names{"a_2-7", "A001_0_1-5"}));
+}
+
 TEST_F(MotionsOnDevice, FoldersAndNamesTellTheAction) {
     for (const char* name : {"walk/1.npy", "walk/2.npy", "run/1.npy"}) add_npy(name, {5, joint_count, 3});
     options.pattern = "{action}/{index}";

@@ -116,6 +116,20 @@ TEST_F(OwnNamesIngest, LabelsCutAFileAndTellFields) {
         << summary.remarks[0];
 }
 
+TEST_F(OwnNamesIngest, ALabelThatEndsBehindTheFileIsCutOffThereAndSaysSo) {
+    write("take.skeleton", test::plain_clip(40, 5));
+    test::write_file(dir_ / "labels.csv",
+                     "file,action,start_frame,end_frame\ntake,sit,0,40\ntake,rise,30,41\n");
+    NtuCommand command;
+    command.own.labels = (dir_ / "labels.csv").string();
+    const auto summary = ingest(command);
+    const Dataset dataset(dir_ / "falls");
+    EXPECT_EQ(dataset.clips()[*dataset.find("take_30-41")].frames, 10U);
+    ASSERT_EQ(summary.doubts.size(), 1U);
+    EXPECT_EQ(summary.doubts[0].what, "the label ends behind the motion: cut off there");
+    EXPECT_EQ(summary.doubts[0].first, std::vector<std::string>{"take_30-41"});
+}
+
 TEST_F(OwnNamesIngest, ACutShowsWhatTheFramesShow) {
     // The first body is seen in frames 0-9 alone, the second from frame 10 on: each cut has one body, and its own frames.
     auto first = test::always_seen("7", test::random_motion(30, 6)),
