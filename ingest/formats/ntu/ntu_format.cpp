@@ -6,6 +6,7 @@
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
+#include "base/text/printable.hpp"
 #include "ingest/formats/detections.hpp"
 #include "ingest/formats/frame_span.hpp"
 #include "ingest/formats/ntu/actions.hpp"
@@ -47,6 +48,13 @@ constexpr auto tracks_doubt = "a body's tracking number changes: --join-tracks m
 constexpr auto ghost_doubt =
     "a body that is left out moves more than one kept, perhaps a ghost: --bodies motion takes those that "
     "move most";
+
+/// What bodies the reader left out; empty where there are none.
+std::string left_out(const SkeletonFile& file) {
+    if (file.never_seen.empty()) return {};
+    return fmt::format("a body whose {} is never seen is left out",
+                       in_quotes(ntu25().names[file.never_seen[0]]));
+}
 
 /// Whether the two choices show the same bodies, whatever their order.
 bool same(std::vector<std::size_t> a, std::vector<std::size_t> b) {
@@ -215,9 +223,12 @@ ParsedClip NtuFormat::make_clip(Planned planned, SkeletonFile file) const {
     clip->dataset = planned.dataset;
     const auto persons = datasets_[clip->dataset].persons,
                seen = static_cast<std::uint32_t>(file.bodies.size());
-    if (seen == 0) return Rejection{Rejection::Kind::broken, "no body in any frame"};
+    const auto lost = left_out(file), also = lost.empty() ? "" : "; " + lost;
+    if (seen == 0) return Rejection{Rejection::Kind::broken, "no body in any frame" + also};
     if (!choose_bodies(file, persons, clip->doubts))
-        return Rejection{Rejection::Kind::dropped, fmt::format("{} of {} persons seen", seen, persons)};
+        return Rejection{Rejection::Kind::dropped,
+                         fmt::format("{} of {} persons seen{}", seen, persons, also)};
+    if (!lost.empty()) clip->doubts.push_back(lost);
     clip->name = std::move(planned.name);
     clip->label = planned.label;
     clip->fields = std::move(planned.fields);

@@ -248,9 +248,12 @@ class Reader {
         std::vector<Body> whole;
         for (std::size_t b = 0; b < poses_.size(); ++b) {
             auto& body = file.bodies[b];
-            bool all = true;
-            for (std::size_t j = 0; j < ntu_joints; ++j) all = fill(poses_[b], body.times, j) && all;
-            if (!all) continue;
+            std::size_t whole_joints = 0;
+            while (whole_joints < ntu_joints && fill(poses_[b], body.times, whole_joints)) ++whole_joints;
+            if (whole_joints < ntu_joints) {
+                file.never_seen.push_back(whole_joints);
+                continue;
+            }
             if (whole.empty()) origin_ = poses_[b][0][0];
             for (const auto& pose : poses_[b]) append_limbs(body.limbs, pose, origin_);
             whole.push_back(std::move(body));

@@ -23,8 +23,9 @@ struct Body {
 
 struct SkeletonFile {
     std::uint32_t frames = 0;
-    std::vector<Body> bodies;  ///< in order of first appearance
-    bool filled = false;       ///< some bodies or joints were listed at 0 0 0
+    std::vector<Body> bodies;             ///< in order of first appearance
+    bool filled = false;                  ///< some bodies or joints were listed at 0 0 0
+    std::vector<std::size_t> never_seen;  ///< a joint of each body that is left out for it
 };
 
 /// `text` must have 64 zero bytes behind it. Rejects with the line and what is wrong with it. A body listed twice in a

@@ -116,6 +116,26 @@ TEST_F(OwnNamesIngest, LabelsCutAFileAndTellFields) {
         << summary.remarks[0];
 }
 
+TEST_F(OwnNamesIngest, ABodyLeftOutForAJointThatIsNeverSeenIsSaid) {
+    auto headless = test::random_motion(20, 1);
+    for (auto& pose : headless) pose[3] = {0, 0, 0};
+    const auto body = test::always_seen("1", headless);
+    write("walk_1.skeleton",
+          test::skeleton_text(20, {body, test::always_seen("2", test::random_motion(20, 2))}));
+    write("walk_2.skeleton", test::skeleton_text(20, {body}));
+    NtuCommand command;
+    command.own.pattern = "{action}_{index}";
+    const auto summary = ingest(command);
+    const std::string said = "a body whose 'head' is never seen is left out";
+    ASSERT_EQ(Dataset(dir_ / "falls").clips().size(), 1U);
+    const auto doubt = std::find_if(summary.doubts.begin(), summary.doubts.end(),
+                                    [&](const auto& one) { return one.what == said; });
+    ASSERT_NE(doubt, summary.doubts.end());
+    EXPECT_EQ(doubt->first, std::vector<std::string>{"walk_1"});
+    EXPECT_NE(summary.first_rejections.at(0).find("no body in any frame; " + said), std::string::npos)
+        << summary.first_rejections[0];
+}
+
 TEST_F(OwnNamesIngest, ALabelThatEndsBehindTheFileIsCutOffThereAndSaysSo) {
     write("take.skeleton", test::plain_clip(40, 5));
     test::write_file(dir_ / "labels.csv",
