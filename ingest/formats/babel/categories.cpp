@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/printable.hpp"
+#include "base/text/trimmed_lines.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -135,17 +136,11 @@ constexpr std::array<std::string_view, 120> names{"walk",
 
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 20;
 
-std::vector<std::string> pieces(std::string_view text, std::string_view separators) {
-    constexpr std::string_view blanks = " \t\r";
+/// Names with commas between, or of a file with one a line.
+std::vector<std::string> names_in(std::string text, bool file) {
+    if (!file) std::replace(text.begin(), text.end(), ',', '\n');
     std::vector<std::string> out;
-    while (!text.empty()) {
-        const auto end = std::min(text.find_first_of(separators), text.size());
-        auto piece = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        piece.remove_prefix(std::min(piece.find_first_not_of(blanks), piece.size()));
-        piece = piece.substr(0, piece.find_last_not_of(blanks) + 1);
-        if (!piece.empty()) out.push_back(printable(piece));
-    }
+    for (const auto line : trimmed_lines(text)) out.push_back(printable(line));
     return out;
 }
 
@@ -167,7 +162,7 @@ std::vector<std::string> categories_called(const std::string& said) {
     std::error_code error;
     const bool file = std::filesystem::is_regular_file(said, error);
     std::vector<char> scratch;
-    const auto out = file ? pieces(read_text(said, scratch, largest_file), "\n") : pieces(said, ",");
+    const auto out = names_in(file ? std::string(read_text(said, scratch, largest_file)) : said, file);
     const auto where = file ? said : "--categories";
     if (out.empty())
         throw Error(

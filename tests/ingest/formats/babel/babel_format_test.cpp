@@ -124,6 +124,9 @@ TEST(BabelCategories, AreThoseOfBabelOrAnyNamed) {
     const TempDir dir;
     write_file(dir / "names", "duck\r\n\n walk \n");
     EXPECT_EQ(categories_called((dir / "names").string()), (std::vector<std::string>{"duck", "walk"}));
+    write_file(dir / "from Windows", "\xEF\xBB\xBFto duck, slowly\r\nwalk\r\n");
+    EXPECT_EQ(categories_called((dir / "from Windows").string()),
+              (std::vector<std::string>{"to duck, slowly", "walk"}));
     for (const std::string wrong : {"", " , ", "walk,walk", "0", "121"})
         EXPECT_THROW(categories_called(wrong), Error) << wrong;
 }
