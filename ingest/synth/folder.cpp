@@ -19,18 +19,20 @@ void write_file(const fs::path& file, std::string_view bytes) {
     }
 }
 
-void claim_folder(const fs::path& folder, std::string_view made_by, std::uint64_t seed) {
+void claim_folder(const fs::path& folder, std::string_view made_by, std::uint64_t seed,
+                  std::optional<std::uint64_t> clips) {
     make_folders(folder);
     const auto file = folder / "synth.json";
-    const nlohmann::ordered_json mine = {
-        {"made_by", made_by}, {"version", ACTFORMER_VERSION}, {"seed", seed}};
+    nlohmann::ordered_json mine = {{"made_by", made_by}, {"version", ACTFORMER_VERSION}, {"seed", seed}};
+    if (clips) mine["clips"] = *clips;
     if (!fs::exists(file)) return write_file(file, mine.dump(2) + "\n");
     const auto theirs = loose::read(file);
     if (theirs != mine)
         throw Error(
-            "{}: the folder holds clips of another seed or version than seed {} of version {}; choose "
+            "{}: the folder holds clips of another seed{} or version than seed {}{} of version {}; choose "
             "another with -o",
-            file.string(), seed, ACTFORMER_VERSION);
+            file.string(), clips ? ", number" : "", seed, clips ? fmt::format(" and {} clips", *clips) : "",
+            ACTFORMER_VERSION);
 }
 
 }  // namespace actformer::ingest::synth

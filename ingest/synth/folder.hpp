@@ -3,14 +3,17 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace actformer::ingest::synth {
 
 /// Makes it, with synth.json, which says what its files were made from: those of another stand-in, seed or version must not be mixed
-/// with them. `made_by` is the command, as in "actformer synth ntu". Throws Error where the folder holds such files, or cannot be made.
-void claim_folder(const std::filesystem::path& folder, std::string_view made_by, std::uint64_t seed);
+/// with them. `made_by` is the command, as in "actformer synth ntu"; `clips` is given where what a file holds depends on how many clips
+/// there are. Throws Error where the folder holds such files, or cannot be made.
+void claim_folder(const std::filesystem::path& folder, std::string_view made_by, std::uint64_t seed,
+                  std::optional<std::uint64_t> clips = {});
 
 /// A file whole or not at all, and the folders it lies in. Whoever makes such files calls sync_all() behind the last. Throws Error naming it and the remedy.
 void write_file(const std::filesystem::path& file, std::string_view bytes);

@@ -148,7 +148,7 @@ Json described(const PlannedSequence& planned, const Sequence& sequence, std::si
 }  // namespace
 
 StandInSummary synthesise_babel(const StandInOptions& options) {
-    claim_folder(options.folder, "actformer synth babel", options.seed);
+    claim_folder(options.folder, "actformer synth babel", options.seed, options.clips);
     const auto planned = plan(options.clips, options.seed);
     std::vector<Json> descriptions(planned.size());
     Counting counting(options);

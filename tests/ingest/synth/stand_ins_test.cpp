@@ -109,6 +109,22 @@ TEST_F(StandIns, AreTheSameForAnyNumberOfThreadsAndNotForAnotherSeed) {
     }
 }
 
+TEST_F(StandIns, MoreClipsInAFolderAreThoseOfAnEmptyOneOrRefused) {
+    for (const auto& one : stand_ins()) {
+        const auto folder = dir / fs::path(one.name);
+        one.make({folder, 6, 1, 2, {}});
+        try {
+            one.make({folder, 9, 1, 2, {}});
+        } catch (const Error& e) {
+            EXPECT_EQ(one.name, "babel") << e.what();
+            EXPECT_NE(std::string(e.what()).find("9 clips"), std::string::npos) << e.what();
+            continue;
+        }
+        EXPECT_NE(one.name, "babel") << "which actions its recordings hold depends on how many there are";
+        EXPECT_EQ(files_in(folder), made(one.name, 9)) << one.name;
+    }
+}
+
 /// Which way the pelvis faces in the first frame, degrees about y from z.
 double facing(const Motion& motion) {
     // First two rows of the root's rotation, row-major: x and z of its third column are r02, and r22 by the cross product.
