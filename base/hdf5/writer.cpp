@@ -20,20 +20,30 @@ Handle string_type(std::size_t size) {
     return type;
 }
 
-struct Packed {
+/// Of the longest; at least 1.
+std::size_t longest(const std::vector<std::string>& values) {
     std::size_t size = 1;
+    for (const auto& value : values) size = std::max(size, value.size());
+    return size;
+}
+
+struct Packed {
+    std::size_t size;
     std::string text;
 };
 
 Packed packed(const std::vector<std::string>& values) {
-    Packed all;
-    for (const auto& value : values) all.size = std::max(all.size, value.size());
+    Packed all{longest(values), {}};
     all.text.resize(values.size() * all.size, '\0');
     for (std::size_t i = 0; i < values.size(); ++i) values[i].copy(all.text.data() + i * all.size, all.size);
     return all;
 }
 
 }  // namespace
+
+std::size_t packed_size(const std::vector<std::string>& values) {
+    return values.size() * longest(values);
+}
 
 Writer::Writer(std::size_t expected_bytes) : memory_(std::make_unique<FileMemory>()) {
     create_in(*memory_, expected_bytes);
@@ -185,6 +195,10 @@ void Writer::write_strings(const std::string& name, const std::vector<std::strin
 
 void Writer::attribute_from(const std::string& name, const std::string& of, hid_t type, const Shape& shape,
                             const void* value) {
+    const auto bytes = std::accumulate(shape.begin(), shape.end(), H5Tget_size(type), std::multiplies<>());
+    if (bytes > largest_attribute)
+        throw Error("{}: attribute '{}' would take {} bytes, and HDF5 keeps at most {} in one",
+                    aside_ ? aside_->path().string() : "HDF5", name, bytes, largest_attribute);
     const Handle space(shape.empty()
                            ? H5Screate(H5S_SCALAR)
                            : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
@@ -195,7 +209,6 @@ void Writer::attribute_from(const std::string& name, const std::string& of, hid_
     need(static_cast<bool>(attribute), name);
     need(H5Awrite(attribute.get(), type, value) >= 0, name);
     need(attribute.close(), name);
-    const auto bytes = std::accumulate(shape.begin(), shape.end(), H5Tget_size(type), std::multiplies<>());
     contents_.add_attribute(of == "/" ? std::string() : of, name, type, shape,
                             {static_cast<const char*>(value), bytes});
 }

@@ -16,6 +16,12 @@
 
 namespace actformer::hdf5 {
 
+/// Bytes that an attribute may have: it lies in a header of 64 KiB, beside its name, type and shape.
+inline constexpr std::size_t largest_attribute = 65'000;
+
+/// Bytes that texts take in an attribute or array, each as many as the longest.
+std::size_t packed_size(const std::vector<std::string>& values);
+
 /// A new file; the same calls give the same bytes. On disk it ends in a line with the checksum of all bytes before, which Reader looks
 /// at and other programs pass over; they drop it when they change the file.
 class Writer {
@@ -38,7 +44,7 @@ class Writer {
 
     void write_strings(const std::string& name, const std::vector<std::string>& values);
 
-    /// Attributes of the root group, or of the array `of`.
+    /// Attributes of the root group, or of the array `of`. Throws Error where one has more than largest_attribute bytes.
     void attribute(const std::string& name, const std::string& value, const std::string& of = "/");
     void attribute(const std::string& name, std::int64_t value, const std::string& of = "/");
     void attribute(const std::string& name, const std::vector<std::int64_t>& values,

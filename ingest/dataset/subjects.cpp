@@ -50,6 +50,15 @@ std::vector<float> floats(const hdf5::Reader& file, const std::string& name) {
     return file.has_attribute(name) ? file.attribute_floats(name) : std::vector<float>{};
 }
 
+void check_fit(const std::vector<std::string>& names, const char* what) {
+    if (const auto bytes = hdf5::packed_size(names); bytes > hdf5::largest_attribute)
+        throw Error(
+            "{} {}, each stored at the length of the longest name, would take {} bytes in weights and "
+            "motions "
+            "files, which hold {}: give fewer or shorter names",
+            names.size(), what, bytes, hdf5::largest_attribute);
+}
+
 Topology read_topology(const hdf5::Reader& file) {
     const auto parents = file.attribute_numbers("parents");
     Topology topology{texts(file, either(file, "names", "joints")), {parents.begin(), parents.end()}};
@@ -78,6 +87,11 @@ void write_subjects(hdf5::Writer& file, const Subjects& subjects) {
     if (!subjects.rest.empty()) file.attribute("rest", subjects.rest);
     if (!subjects.classes.empty()) file.attribute("classes", subjects.classes);
     file.attribute("fps", std::vector<float>{static_cast<float>(subjects.fps)});
+}
+
+void check_names_fit(const DatasetHeader& header) {
+    check_fit(header.classes, "classes");
+    check_fit(header.topology.names, "joints");
 }
 
 std::optional<Representation> read_representation(const hdf5::Reader& file, const std::string& where) {

@@ -17,6 +17,7 @@ class Writer;
 namespace actformer::ingest {
 
 class Dataset;
+struct DatasetHeader;
 
 /// The body model's bone lengths may be missing.
 struct Subjects : BodyModel {
@@ -33,6 +34,9 @@ Subjects subjects_of(const Dataset& dataset);
 /// Attributes `representation`, `parents`, `names`, `persons`, `bone_length`, `rest`, `classes`, `fps`; those without
 /// numbers are left out.
 void write_subjects(hdf5::Writer& file, const Subjects& subjects);
+
+/// Throws Error where the names of classes or joints are more than such attributes hold.
+void check_names_fit(const DatasetHeader& header);
 
 /// The attribute `representation`; none where the file was written without. Throws Error, beginning with `where`, for one that is
 /// not known.

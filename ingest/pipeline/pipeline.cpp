@@ -13,6 +13,7 @@
 #include "base/threads/worker.hpp"
 #include "ingest/dataset/dataset_json.hpp"
 #include "ingest/dataset/shard.hpp"
+#include "ingest/dataset/subjects.hpp"
 #include "ingest/pipeline/empty_classes.hpp"
 #include "ingest/pipeline/groups.hpp"
 #include "ingest/pipeline/journal.hpp"
@@ -117,6 +118,7 @@ class Ingest {
         }
         format_.settle();
         for (const auto& header : format_.datasets()) {
+            check_names_fit(header);
             shards_.emplace_back(header);
             shard_count_.push_back(0);
         }

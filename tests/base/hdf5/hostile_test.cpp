@@ -259,6 +259,18 @@ TEST_F(HostileFile, AHeapOfTextsSmallerThanItsHeaderIsRefused) {
     }
 }
 
+TEST_F(HostileFile, AnAttributeLargerThanHdf5KeepsIsRefusedWithItsSize) {
+    hdf5::Writer writer(path);
+    const std::vector<std::string> names(500, std::string(130, 'x'));
+    writer.attribute("classes", names);
+    auto more = names;
+    more[3] += "x";
+    const auto why = refusal([&] { writer.attribute("more", more); });
+    EXPECT_NE(why.find("file.h5: attribute 'more' would take 65500 bytes"), std::string::npos) << why;
+    writer.finish();
+    EXPECT_EQ(hdf5::Reader(path).attribute_texts("classes"), names);
+}
+
 TEST_F(HostileFile, WhatIsNoFileIsRefusedAtOnce) {
     EXPECT_NE(refusal([&] { hdf5::Reader(dir / "none"); }).find("no such file"), std::string::npos);
     EXPECT_NE(refusal([&] { hdf5::Reader(dir.path()); }).find("not a file"), std::string::npos);

@@ -373,6 +373,19 @@ TEST_F(MotionsOnDevice, WhatIsWrongIsNamedAndTheRestTaken) {
     EXPECT_EQ(summary.doubts[0].first, Names{"gaps"});
 }
 
+TEST_F(MotionsOnDevice, ClassesThatNoWeightsWouldHoldAreRefused) {
+    add_npy("a.npy", {5, joint_count, 3});
+    std::string labels = "file,action\n";
+    for (int i = 0; i < 400; ++i)
+        labels += fmt::format("a,{}{}\n", i, i == 7 ? std::string(200, 'x') : std::string());
+    write_file(dir / "labels.csv", labels);
+    options.labels = (dir / "labels.csv").string();
+    EXPECT_NE(
+        fault().find("400 classes, each stored at the length of the longest name, would take 80400 bytes"),
+        std::string::npos)
+        << fault();
+}
+
 TEST_F(MotionsOnDevice, WhatMakesNoDatasetIsOneLine) {
     add_npy("a.npy", {5, joint_count + 1, 3});
     EXPECT_EQ(fault().substr(0, 44), "no motion in any file; the first fault is in");
