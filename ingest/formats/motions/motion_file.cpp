@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <unordered_map>
 
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
@@ -118,11 +119,13 @@ class Look {
         if (arrays.empty()) throw Error("no array of joint positions in it");
         const auto& clips = texts["clips"];
         const auto& labels = numbers["labels"];
+        std::unordered_map<std::string_view, std::size_t> place_of;
+        for (std::size_t i = 0; i < clips.size(); ++i) place_of.emplace(clips[i], i);
         for (auto& [name, array] : arrays) {
             std::vector<std::int64_t> own;
-            const auto at =
-                static_cast<std::size_t>(std::find(clips.begin(), clips.end(), name) - clips.begin());
-            if (at < clips.size() && at < labels.size()) own = {static_cast<std::int64_t>(labels[at])};
+            const auto at = place_of.find(name);
+            if (at != place_of.end() && at->second < labels.size())
+                own = {static_cast<std::int64_t>(labels[at->second])};
             if (clips.empty() && arrays.size() == 1) own.assign(labels.begin(), labels.end());
             add(arrays.size() == 1 && clips.empty() ? "" : name, array, topology(), std::move(own));
         }
@@ -202,10 +205,17 @@ class Look {
     MotionFile out_;
 };
 
-const FoundMotion* found_in(const MotionFile& file, std::string_view key) {
-    for (const auto& motion : file.motions)
-        if (motion.key == key || (motion.key.empty() && file.motions.size() == 1)) return &motion;
-    return nullptr;
+void take_from_npz(const RawText& raw, const MotionFile& file, const Topology& topology,
+                   const std::string& axes, const MotionTaker& taker) {
+    std::unordered_map<std::string_view, const FoundMotion*> by_key;
+    for (const auto& motion : file.motions) by_key.emplace(motion.key, &motion);
+    const auto all =
+        file.motions.size() == 1 ? by_key.find("") : by_key.end();  // of a file that holds no other
+    read_npz(raw.text, {}, [&](const std::string& name, const NumpyArray& array) {
+        if (telling.contains(name)) return;
+        const auto found = all != by_key.end() ? all : by_key.find(name);
+        if (found != by_key.end()) taker.array(*found->second, JointArray(array, topology.joints(), axes));
+    });
 }
 
 void take_from_hdf5(const RawText& raw, const MotionFile& file, const Topology& topology,
@@ -244,11 +254,7 @@ void take_motions(const RawText& raw, const MotionFile& file, const Topology& to
             return taker.array(file.motions[0], JointArray(array, topology.joints(), axes));
         }
         case Kind::npz:
-            return read_npz(raw.text, {}, [&](const std::string& name, const NumpyArray& array) {
-                if (telling.contains(name)) return;
-                if (const auto* found = found_in(file, name))
-                    taker.array(*found, JointArray(array, topology.joints(), axes));
-            });
+            return take_from_npz(raw, file, topology, axes, taker);
         case Kind::csv: {
             const auto motion = read_csv_motion(raw.text, topology.names);
             const auto array = array_of(motion);
