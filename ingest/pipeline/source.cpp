@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
@@ -203,23 +204,56 @@ struct Found {
     std::string unreadable{};  ///< why; empty where nothing speaks against it
 };
 
-void add_files_below(const fs::path& folder, std::size_t given, const Extensions& extensions,
-                     std::vector<Found>& items) {
-    const auto before = static_cast<std::ptrdiff_t>(items.size());
-    std::error_code error;
-    for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        std::error_code ignored;  // a file that cannot be looked at is rejected when it is read
-        if (is_wanted(it->path().native(), extensions) && !it->is_directory(ignored))
-            items.push_back({it->path().native(), given});
+/// The files below a folder. Links to folders are followed, each folder once: circles end, and where a folder is there both itself and
+/// by a link, its files have their own paths.
+class FolderWalk {
+  public:
+    FolderWalk(std::size_t given, const Extensions& extensions, std::vector<Found>& items)
+        : given_(given), extensions_(extensions), items_(items) {}
+
+    void walk(const fs::path& folder) {
+        const auto before = static_cast<std::ptrdiff_t>(items_.size());
+        for (links_.insert(folder); !links_.empty();) {
+            const auto next = links_.extract(links_.begin()).value();
+            if (is_new(next)) walk_unlinked(next);
+        }
+        std::sort(items_.begin() + before, items_.end(),
+                  [](const Found& a, const Found& b) { return a.path < b.path; });
     }
-    if (error) throw Error("{}: the folder cannot be read: {}", folder.string(), error.message());
-    std::sort(items.begin() + before, items.end(),
-              [](const Found& a, const Found& b) { return a.path < b.path; });
-}
+
+  private:
+    bool is_new(const fs::path& folder) {
+        struct stat status {};
+        return ::stat(folder.c_str(), &status) == 0 && walked_.emplace(status.st_dev, status.st_ino).second;
+    }
+
+    void walk_unlinked(const fs::path& folder) {
+        std::error_code error;
+        for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+             it.increment(error)) {
+            std::error_code ignored;  // a file that cannot be looked at is rejected when it is read
+            if (!it->is_directory(ignored)) {
+                if (is_wanted(it->path().native(), extensions_))
+                    items_.push_back({it->path().native(), given_});
+            } else if (it->is_symlink(ignored)) {
+                links_.insert(it->path());
+            } else if (!is_new(it->path())) {
+                it.disable_recursion_pending();
+            }
+        }
+        if (error) throw Error("{}: the folder cannot be read: {}", folder.string(), error.message());
+    }
+
+    std::size_t given_;
+    const Extensions& extensions_;
+    std::vector<Found>& items_;
+    std::set<fs::path> links_;                  ///< to folders, still to be walked
+    std::set<std::pair<dev_t, ino_t>> walked_;  ///< folders
+};
 
 /// Sizes and times of change; 0 for a file that vanished, which is rejected when it is read.
-void look_at(std::vector<Found>& items) {
-    parallel_for(items.size(), thread_count(0), [&](std::size_t i, unsigned) {
+void look_at(std::vector<Found>& items, unsigned threads) {
+    parallel_for(items.size(), threads, [&](std::size_t i, unsigned) {
         struct stat status {};
         if (::stat(items[i].path.c_str(), &status) != 0) return;
         if (S_ISREG(status.st_mode))
@@ -293,7 +327,7 @@ struct Source::State {
 };
 
 Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_view>& extensions,
-               std::uint64_t largest_file)
+               std::uint64_t largest_file, unsigned threads)
     : state_(new State) {
     state_->largest = largest_file;
     state_->extensions.assign(extensions.begin(), extensions.end());
@@ -304,7 +338,7 @@ Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_v
         if (!fs::exists(status))
             throw Error("{}: no such file or folder{}", raw[i].string(), did_you_mean(raw[i]));
         if (fs::is_directory(status)) {
-            add_files_below(raw[i], i, state_->extensions, state_->items);
+            FolderWalk(i, state_->extensions, state_->items).walk(raw[i]);
         } else {
             refuse_irregular(raw[i]);
             const bool archive = extension_of(raw[i].string(), state_->extensions) == 0;
@@ -314,7 +348,7 @@ Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_v
             state_->items.push_back({raw[i].string(), i, archive});
         }
     }
-    look_at(state_->items);
+    look_at(state_->items, thread_count(threads));
     if (state_->items.empty()) {
         std::string where;
         for (const auto& path : raw) where += (where.empty() ? "" : ", ") + path.string();

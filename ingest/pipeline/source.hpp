@@ -58,12 +58,13 @@ class TextMemory {
     std::optional<MappedFile> mapped_;
 };
 
-/// Walks RAW paths in an order that depends on names alone: paths as given, folders sorted, archives as stored.
+/// Walks RAW paths in an order that depends on names alone: paths as given, folders sorted, archives as stored. Links to folders are
+/// followed.
 class Source {
   public:
-    /// Of an archive, members beyond `largest_file` bytes come unreadable. Throws Error where a path is missing or neither folder, archive nor a file with one of `extensions`.
+    /// Of an archive, members beyond `largest_file` bytes come unreadable. `threads` look at the files, 0: one a core. Throws Error where a path is missing or neither folder, archive nor a file with one of `extensions`.
     Source(const std::vector<std::filesystem::path>& raw, const std::vector<std::string_view>& extensions,
-           std::uint64_t largest_file = usual_largest_file);
+           std::uint64_t largest_file = usual_largest_file, unsigned threads = 0);
     ~Source();
 
     /// The next file; false at the end. Throws Error naming the archive and member where an archive is broken.

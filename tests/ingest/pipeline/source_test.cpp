@@ -59,6 +59,23 @@ TEST_F(Files, ComeOutOfNestedFoldersInOrder) {
     EXPECT_EQ(contents({dir / "raw"}), expected);
 }
 
+TEST_F(Files, LinkedFoldersAreFollowedAndCirclesEnd) {
+    write_file(dir / "elsewhere/CMU/01/walk.skeleton", "linked");
+    fs::create_directory_symlink(dir / "elsewhere/CMU", dir / "raw/b/CMU");
+    fs::create_directory_symlink("..", dir / "raw/b/above");                     // a circle
+    fs::create_directory_symlink(dir / "raw/b", dir / "elsewhere/CMU/01/back");  // another
+    fs::create_directory_symlink(dir / "raw/c", dir / "raw/a/of c");             // what is there already
+    fs::create_directory_symlink(dir / "raw/b/gone", dir / "raw/b/nowhere");
+    auto all = expected;
+    all.insert(all.begin() + 1, {"walk", "linked"});
+    EXPECT_EQ(contents({dir / "raw"}), all);
+    Source source({dir / "raw"}, {".skeleton"});
+    std::vector<std::string> inside;
+    for (RawFile file; source.next_name(file);) inside.push_back(file.inside);
+    EXPECT_EQ(inside, (std::vector<std::string>{"a/one.SKELETON", "b/CMU/01/walk.skeleton", "b/two.skeleton",
+                                                "c/empty.skeleton"}));
+}
+
 TEST_F(Files, WhatIsNoRegularFileIsSkippedByName) {
     ASSERT_EQ(::mkfifo((dir / "raw/b/pipe.skeleton").c_str(), 0600), 0);
     fs::create_symlink(dir / "raw/b/pipe.skeleton", dir / "raw/b/link.skeleton");
