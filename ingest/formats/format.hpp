@@ -96,6 +96,9 @@ class ClipSink {
 
     /// May wait until earlier clips have been cleaned, so that a file of many clips need not fit in memory.
     virtual void take(ParsedClip clip) = 0;
+
+    /// How many threads may make the file's clips: other files have the others.
+    virtual unsigned threads() const { return 1; }
 };
 
 class Format {

@@ -24,7 +24,7 @@ ParsedClip made_or_broken(const std::string& place, Make make) {
     }
 }
 
-/// Makes `count` clips on all cores, a lot at a time, and hands them to `sink` in their order. `bytes(i)` says from how many bytes of the
+/// Makes `count` clips on as many threads as the sink has, a lot at a time, and hands them to `sink` in their order. `bytes(i)` says from how many bytes of the
 /// file clip i is read; `read` is called with the bytes of each lot once they are read.
 template <typename Bytes, typename Make, typename Read>
 void make_in_order(std::size_t count, ClipSink& sink, Bytes bytes, Make make, Read read) {
@@ -35,7 +35,7 @@ void make_in_order(std::size_t count, ClipSink& sink, Bytes bytes, Make make, Re
         while (last < count && in_lot < at_once) in_lot += bytes(last++);
         lot.clear();
         lot.resize(last - first);
-        parallel_for(lot.size(), thread_count(0), [&](std::size_t i, unsigned) { lot[i] = make(first + i); });
+        parallel_for(lot.size(), sink.threads(), [&](std::size_t i, unsigned) { lot[i] = make(first + i); });
         read(in_lot);
         for (auto& clip : lot) sink.take(std::move(clip));
     }

@@ -4,6 +4,7 @@
 // waits once `most_parsed` bytes of clips are waiting, so that no file need fit in memory.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -33,7 +34,7 @@ class Parsers {
     using Parse = std::function<void(Item&, ClipSink&, TextMemory&)>;
 
     Parsers(unsigned threads, std::uint64_t largest_file, Parse parse)
-        : parse_(std::move(parse)), largest_file_(largest_file) {
+        : parse_(std::move(parse)), largest_file_(largest_file), count_(threads) {
         try {
             for (unsigned t = 0; t < threads; ++t) threads_.push_back(new_thread([this] { work(); }));
         } catch (...) {
@@ -128,6 +129,11 @@ class Parsers {
             item_.bytes += bytes;
         }
 
+        unsigned threads() const override {
+            const std::lock_guard lock(parsers_.mutex_);
+            return std::max(1U, parsers_.count_ / std::max(1U, parsers_.parsing_));
+        }
+
       private:
         Parsers& parsers_;
         Item& item_;
@@ -148,6 +154,7 @@ class Parsers {
             changed_.wait(lock, [&] { return stopping_ || (in_hand = next()); });
             if (stopping_) return;
             auto& item = in_hand->group.items[in_hand->begun++];
+            ++parsing_;
             lock.unlock();
             std::exception_ptr failure;
             try {
@@ -157,6 +164,7 @@ class Parsers {
                 failure = std::current_exception();
             }
             lock.lock();
+            --parsing_;
             item.done = true;
             if (failure) failure_ = failure;
             if (failure || (in_hand == &groups_.front() && in_hand->ready())) changed_.notify_all();
@@ -165,6 +173,7 @@ class Parsers {
 
     Parse parse_;
     std::uint64_t largest_file_;
+    unsigned count_, parsing_ = 0;  ///< threads, and how many of them have a file
     std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<InHand> groups_;

@@ -67,7 +67,7 @@ class Ingest {
     IngestSummary run() {
         const auto start = Clock::now();
         settle_format();
-        Source source(request_.raw, format_.extensions(), format_.largest_file());
+        Source source(request_.raw, format_.extensions(), format_.largest_file(), threads_);
         summary_.seconds.walk = seconds_since(start);
         const auto wanted = request_line(source);
         const auto aside = workplace_of(request_.out);
@@ -113,7 +113,7 @@ class Ingest {
     void settle_format() {
         const auto wanted = format_.surveys();
         if (wanted != Format::Survey::nothing) {
-            Source source(request_.raw, format_.extensions(), format_.largest_file());
+            Source source(request_.raw, format_.extensions(), format_.largest_file(), threads_);
             wanted == Format::Survey::names ? survey_names(source) : survey_texts(source);
         }
         format_.settle();

@@ -1,16 +1,20 @@
 // The pipeline through a format made for it: files of many clips, a survey, classes that nobody has.
 #include "ingest/pipeline/pipeline.hpp"
+#include "ingest/formats/parsed.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <set>
 #include <sstream>
+#include <thread>
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
+#include "ingest/formats/parsed.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/error_of.hpp"
 #include "tests/support/flips.hpp"
@@ -117,6 +121,27 @@ class LineFormat : public Format {
     Survey how_;
     std::mutex mutex_;
     std::vector<DatasetHeader> datasets_;
+};
+
+/// A file's clips are made together; what made them is noted.
+class TogetherFormat : public LineFormat {
+  public:
+    void read(const RawText& raw, ClipSink& sink) const override {
+        LineFormat::read(raw, sink);
+        make_in_order(
+            64, sink, [](std::size_t) { return std::size_t{1}; },
+            [&](std::size_t i) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                const std::lock_guard lock(noting_);
+                threads.insert(std::this_thread::get_id());
+                return Rejection{Rejection::Kind::dropped, fmt::format("clip {}", i)};
+            },
+            [](std::size_t) {});
+    }
+    mutable std::set<std::thread::id> threads;
+
+  private:
+    mutable std::mutex noting_;
 };
 
 struct PipelineOnDevice : testing::Test {
@@ -350,6 +375,15 @@ TEST_F(PipelineOnDevice, SurveysEveryFileBeforeTheFirstIsRead) {
     EXPECT_EQ(names.seen, (std::set<std::string>{"a.lines=", "b/c.txt=", "by_name.txt=", "dangling.lines="}));
     run(nothing, "nothing");
     EXPECT_TRUE(nothing.seen.empty());
+}
+
+TEST_F(PipelineOnDevice, MakesAFilesClipsOnAsManyThreadsAsAskedFor) {
+    write_file(dir / "raw/a.lines", "a 1 2\n");
+    for (const unsigned threads : {1U, 3U}) {
+        TogetherFormat format;
+        run(format, threads == 1 ? "one" : "three", threads);
+        EXPECT_LE(format.threads.size(), threads);
+    }
 }
 
 TEST_F(PipelineOnDevice, StopsAtABrokenClipWhenStrict) {
