@@ -53,8 +53,8 @@ Scratch::Scratch(const std::string& purpose, const fs::path& where) {
                         std::strerror(errno));
         return name;
     };
-    // Whoever removes what is stale may take a new folder for such before it is locked: then another is made. Where the file system
-    // knows no locks, nobody removes anything.
+    // Another process that removes stale folders may take this one for stale before it is locked: then another is made. Where the file
+    // system knows no locks, nobody removes anything.
     for (int attempt = 0; attempt < 5; ++attempt) {
         folder_ = std::make_unique<Temporary>(make);
         lock_ = lock_on(path());

@@ -25,8 +25,7 @@ bool left_open(const std::filesystem::path& path) {
 }
 
 [[noreturn]] void refuse_damaged(const std::string& name) {
-    throw Error("{}: damaged: the checksum at its end is of other bytes; make it again, or copy it again",
-                name);
+    throw Error("{}: damaged: checksum mismatch; make it again, or copy it again", name);
 }
 
 }  // namespace

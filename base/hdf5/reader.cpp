@@ -138,8 +138,8 @@ Reader::Array Reader::open(const std::string& name) const {
     return array;
 }
 
-/// Finds type and shape. What lies outside the file is refused before the library looks for it, and what the file has no room for
-/// before anyone allocates it.
+/// Finds type and shape. Refuses links and storage outside the file before the library follows them, and shapes larger than the file
+/// before memory is taken for them.
 void Reader::check_layout(Array& array) const {
     const Handle plan(H5Dget_create_plist(array.set.get()), H5Pclose);
     const auto layout = plan ? H5Pget_layout(plan.get()) : H5D_LAYOUT_ERROR;

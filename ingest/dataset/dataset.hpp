@@ -57,8 +57,8 @@ struct ShardEntry {
     std::string metadata{};          ///< the checksum of all but the motion; empty before format 3
 };
 
-/// What is read is compared with its checksums: dataset.json and the metadata at once, a motion's chunks when it is asked for. Calls may
-/// come from one thread at a time.
+/// Compares all data with their checksums: dataset.json and the metadata at once, a motion's chunks when it is asked for. For one thread at
+/// a time.
 class Dataset {
   public:
     /// Reads dataset.json and the clips' metadata. Throws Error naming the file, what is wrong and the remedy.

@@ -112,7 +112,7 @@ void read_amass_file(std::string_view bytes, const std::function<void(const Amas
     const auto poses = only([](const std::string& name) { return name == "poses"; });
     read_npz(bytes, poses, [&](const std::string&, const NumpyArray& array) {
         if (!array.numbers() || array.shape != std::vector{head.frames, head.layout->numbers})
-            throw Error("there twice, and not alike: damaged");
+            throw Error("two arrays of this name, of different shapes: damaged");
         const auto read = [&](std::uint64_t t, double* vectors, double* place) {
             read_row(array, t, 3 * joints, vectors);
             std::copy_n(&head.translation[3 * t], 3, place);

@@ -30,8 +30,7 @@ class HumanAct12Format::Clips {
         : poses_(file.get("poses")), joints_(file.get("joints3D")), labels_(labels_of(file.get("y"))) {
         if (poses_.size() != joints_.size() || poses_.size() != labels_.size())
             throw Error(
-                "'poses' has {} clips, 'joints3D' {} and 'y' {}: which belong together is not told; get the "
-                "file again",
+                "'poses' has {} clips, 'joints3D' {} and 'y' {}: their lengths differ; get the file again",
                 poses_.size(), joints_.size(), labels_.size());
     }
 

@@ -29,7 +29,7 @@ struct MotionsOptions {
     bool centre_windows = false;  ///< see DatasetHeader
 };
 
-/// What holds limbs or rotations already is stored as it is, to the bit; joint positions become limbs, or stay positions.
+/// Limbs and rotations are stored as they are, to the bit; joint positions become limbs, or stay positions.
 class MotionsFormat : public Format {
   public:
     /// Throws Error where an option makes no sense.

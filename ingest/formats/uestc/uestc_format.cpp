@@ -52,13 +52,11 @@ class UestcFormat::Videos {
     Videos(const PickleValue& file, std::size_t named)
         : poses_(file.get("pose")), joints_(file.get("joints3d")), cameras_(file.get("orig_cam")) {
         if (poses_.size() != joints_.size() || poses_.size() != cameras_.size())
-            throw Error(
-                "'pose' has {} videos, 'joints3d' {} and 'orig_cam' {}: which belong together is not told",
-                poses_.size(), joints_.size(), cameras_.size());
+            throw Error("'pose' has {} videos, 'joints3d' {} and 'orig_cam' {}: their lengths differ",
+                        poses_.size(), joints_.size(), cameras_.size());
         if (poses_.size() != named)
-            throw Error(
-                "{} videos, and names.txt has {}: which is which is not told; get both from one archive",
-                poses_.size(), named);
+            throw Error("{} videos, and names.txt has {} names; get both from one archive", poses_.size(),
+                        named);
     }
 
     std::size_t size() const { return poses_.size(); }
@@ -155,9 +153,8 @@ ParsedClip UestcFormat::parse(const Videos& videos, std::size_t video) const {
         throw Error("action {}, and action_classes.txt has {}, from 0", name->action, classes.size());
     const auto to_front = name->to_front();
     if (!to_front)
-        return Rejection{
-            Rejection::Kind::dropped,
-            fmt::format("{}: the camera goes round, and where it was is not told", printable(names_[video]))};
+        return Rejection{Rejection::Kind::dropped,
+                         fmt::format("{}: moving camera, pose unknown", printable(names_[video]))};
     auto motion = videos.motion(video, frames_[video], *to_front);
     if (!published_) turn(motion, y_down_to_y_up);
     auto clip = whole(motion, target_);

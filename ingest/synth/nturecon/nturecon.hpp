@@ -8,9 +8,10 @@
 
 namespace actformer::ingest::synth {
 
+/// Writes motions/Ssss/NAME_body0.pkl.
 StandInSummary synthesise_nturecon(const StandInOptions& options);
 
-/// motions/Ssss/NAME_body0.pkl holds smpl_poses (T, 72) rad, smpl_trans (T, 3) and smpl_scaling (1), units a metre; y is down.
+/// A clip's file: smpl_poses (T, 72) rad, smpl_trans (T, 3) and smpl_scaling (1), units a metre; y is down. `frames` becomes T.
 std::string nturecon_pickle(const ClipId& clip, std::uint64_t seed, std::uint64_t& frames);
 
 }  // namespace actformer::ingest::synth
