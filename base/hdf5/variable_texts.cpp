@@ -1,5 +1,6 @@
 #include "base/hdf5/variable_texts.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "base/hdf5/little_endian.hpp"

@@ -1,12 +1,12 @@
 #include "base/numpy/array.hpp"
 
 #include <bit>
-#include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "base/error.hpp"
+#include "base/numpy/binary16.hpp"
 #include "base/text/printable.hpp"
+#include "base/text/utf8.hpp"
 
 namespace actformer {
 namespace {
@@ -21,16 +21,6 @@ NumpyArray::Kind kind_of(char kind, std::size_t size) {
     if ((kind == 'u' && word) || (kind == 'b' && size == 1)) return Kind::natural;
     if ((kind == 'S' || kind == 'U') && size > 0) return Kind::text;
     return Kind::other;
-}
-
-/// IEEE 754 binary16.
-double half(std::uint16_t bits) {
-    const int exponent = bits >> 10 & 31, fraction = bits & 1023;
-    const double magnitude = exponent == 0    ? std::ldexp(fraction, -24)
-                             : exponent == 31 ? (fraction ? std::numeric_limits<double>::quiet_NaN()
-                                                          : std::numeric_limits<double>::infinity())
-                                              : std::ldexp(1024 + fraction, exponent - 25);
-    return bits >> 15 ? -magnitude : magnitude;
 }
 
 template <typename Word, typename Number>
@@ -59,23 +49,6 @@ void copy_as(const char* from, std::uint64_t stride, std::uint64_t count, bool s
         }
         to[i] = number(word);
     }
-}
-
-void append_utf8(std::uint32_t character, std::string& text) {
-    const auto byte = [&](std::uint32_t bits) { text += static_cast<char>(bits); };
-    if (character < 0x80) return byte(character);
-    if (character < 0x800) {
-        byte(0xC0 | character >> 6);
-        return byte(0x80 | (character & 63));
-    }
-    if (character < 0x10000) {
-        byte(0xE0 | character >> 12);
-    } else {
-        byte(0xF0 | (character >> 18 & 7));
-        byte(0x80 | (character >> 12 & 63));
-    }
-    byte(0x80 | (character >> 6 & 63));
-    byte(0x80 | (character & 63));
 }
 
 }  // namespace
@@ -124,7 +97,7 @@ void NumpyArray::copy(std::uint64_t first, std::uint64_t stride, std::uint64_t c
     using std::uint16_t, std::uint32_t, std::uint64_t, std::uint8_t;
     switch (kind) {
         case Kind::real:
-            if (size == 2) return copy_as<uint16_t>(from, stride, count, big_endian, half, to);
+            if (size == 2) return copy_as<uint16_t>(from, stride, count, big_endian, of_binary16, to);
             return size == 4 ? as(uint32_t{}, float{}) : as(uint64_t{}, double{});
         case Kind::whole:
             if (size == 1) return as(uint8_t{}, std::int8_t{});
@@ -161,7 +134,9 @@ std::vector<std::string> NumpyArray::all_texts() const {
                 bytes.data() + at, 1, 1, big_endian,
                 [](std::uint32_t word) { return static_cast<double>(word); }, &character);
             if (character == 0) break;
-            append_utf8(static_cast<std::uint32_t>(character), out[i]);
+            if (!append_utf8(static_cast<std::uint32_t>(character), out[i]))
+                throw Error("an array of texts with the number {:.0f}, which is no character: damaged",
+                            character);
         }
     }
     return out;

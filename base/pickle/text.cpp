@@ -1,5 +1,7 @@
 #include "base/pickle/text.hpp"
 
+#include "base/text/utf8.hpp"
+
 namespace actformer {
 namespace {
 
@@ -20,24 +22,6 @@ std::uint32_t hex(std::string_view text, std::size_t from, std::size_t digits) {
     for (const char c : text.substr(from, digits))
         value = value << 4 | static_cast<std::uint32_t>(hex_digit(c));
     return value;
-}
-
-void append_utf8(std::uint32_t character, std::string& text) {
-    const auto byte = [&](std::uint32_t bits) { text += static_cast<char>(bits); };
-    const auto next = [&](int shift) { byte(0x80 | (character >> shift & 0x3F)); };
-    if (character > 0x10FFFF) malformed();
-    if (character < 0x80) return byte(character);
-    if (character < 0x800) {
-        byte(0xC0 | character >> 6);
-    } else if (character < 0x10000) {
-        byte(0xE0 | character >> 12);
-        next(6);
-    } else {
-        byte(0xF0 | character >> 18);
-        next(12);
-        next(6);
-    }
-    next(0);
 }
 
 /// What one letter behind a backslash stands for.
@@ -79,7 +63,7 @@ std::string of_escaped_unicode(std::string_view line) {
             continue;
         }
         const std::size_t digits = line[i + 1] == 'u' ? 4 : 8;
-        append_utf8(hex(line, i + 2, digits), out);
+        if (!append_utf8(hex(line, i + 2, digits), out)) malformed();
         i += 1 + digits;
     }
     return out;

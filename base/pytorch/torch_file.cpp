@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <functional>
-#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/numpy/binary16.hpp"
 #include "base/numpy/zip.hpp"
 #include "base/pickle/pickle.hpp"
 #include "base/text/html.hpp"
@@ -310,16 +309,6 @@ std::vector<TorchTensor> read_old(std::string_view bytes) {
     return tensors;
 }
 
-/// Of IEEE 754 binary16.
-float half_number(std::uint16_t bits) {
-    const auto exponent = bits >> 10 & 31, fraction = bits & 1023;
-    const double magnitude = exponent == 0    ? std::ldexp(fraction, -24)
-                             : exponent == 31 ? (fraction == 0 ? std::numeric_limits<double>::infinity()
-                                                               : std::numeric_limits<double>::quiet_NaN())
-                                              : std::ldexp(1024 + fraction, exponent - 25);
-    return static_cast<float>(bits & 0x8000 ? -magnitude : magnitude);
-}
-
 template <typename Number>
 float number_at(std::string_view numbers, std::uint64_t place) {
     Number number;
@@ -340,7 +329,7 @@ float number_at(Type type, std::string_view numbers, std::uint64_t place) {
     }
     std::uint16_t bits = 0;
     std::memcpy(&bits, numbers.data() + 2 * place, sizeof bits);
-    return half_number(bits);
+    return static_cast<float>(of_binary16(bits));
 }
 
 }  // namespace

@@ -19,14 +19,6 @@ void joints_of_limbs(const float* limbs, const Topology& topology, const std::ve
     }
 }
 
-Rotation product(const Rotation& a, const Rotation& b) {
-    Rotation out{};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            for (std::size_t k = 0; k < 3; ++k) out[i * 3 + j] += a[i * 3 + k] * b[k * 3 + j];
-    return out;
-}
-
 void joints_of_rotations(const float* nodes, const Topology& topology,
                          const std::vector<std::uint32_t>& order, const std::vector<float>& rest,
                          float* joints) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "ingest/dataset/motion.hpp"
@@ -30,6 +31,24 @@ std::vector<float> joint_positions(const Motion& motion, const BodyModel& body);
 
 /// Row-major.
 using Rotation = std::array<double, 9>;
+
+/// `b` first, then `a`.
+inline Rotation product(const Rotation& a, const Rotation& b) {
+    Rotation out;
+    for (std::size_t i = 0; i < 9; i += 3)
+        for (std::size_t j = 0; j < 3; ++j)
+            out[i + j] = a[i] * b[j] + a[i + 1] * b[3 + j] + a[i + 2] * b[6 + j];
+    return out;
+}
+
+/// (joints) metres of a rest pose, (joints, 3) from the parent; 0 for the root.
+template <typename Number>
+std::vector<float> rest_lengths(const std::vector<Number>& rest) {
+    std::vector<float> out(rest.size() / 3, 0);
+    for (std::size_t j = 1; j < out.size(); ++j)
+        out[j] = static_cast<float>(std::hypot(rest[3 * j], rest[3 * j + 1], rest[3 * j + 2]));
+    return out;
+}
 
 /// The rotation whose first two rows these six numbers are nearest to by Gram and Schmidt: the first row keeps its direction.
 /// Zeros where they have none.

@@ -39,7 +39,7 @@ const Topology& gta22() {
          "right wrist", "left clavicle", "left shoulder", "left elbow",     "left wrist",     "spine0",
          "spine1",      "spine2",        "spine3",        "head top",       "right hip",      "right knee",
          "right ankle", "left hip",      "left knee",     "left ankle"},
-        {-1, 2, 11, 2, 3, 4, 5, 2, 7, 8, 9, 12, 13, 14, 0, 1, 0, 16, 17, 0, 19, 20}};
+        {gta22_parents.begin(), gta22_parents.end()}};
     return topology;
 }
 

@@ -26,6 +26,12 @@ inline constexpr std::array<int, smpl_joints> smpl24_parents{-1, 0, 0, 0,  1,  2
 /// SMPL's 24 joints in its order (Loper et al. 2015); every joint comes after its parent.
 const Topology& smpl24();
 
+inline constexpr std::size_t gta_joints = 22;
+
+/// Parents of gta22().
+inline constexpr std::array<int, gta_joints> gta22_parents{-1, 2,  11, 2, 3, 4, 5,  2,  7, 8,  9,
+                                                           12, 13, 14, 0, 1, 0, 16, 17, 0, 19, 20};
+
 /// The 22 joints of GTA Combat: those of JTA (Fabbri et al. 2018), the pelvis first.
 const Topology& gta22();
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "ingest/dataset/known_topologies.hpp"
+
 namespace actformer::ingest {
 namespace {
 
@@ -22,11 +24,11 @@ const std::vector<Known>& known() {
          {none, up,   up,   up,        left, left, left, left, right, right,      right, right,      left_hip,
           down, down, toes, right_hip, down, down, toes, up,   left,  left_thumb, right, right_thumb}},
         // SMPL
-        {{-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19, 20, 21},
+        {{smpl24_parents.begin(), smpl24_parents.end()},
          {none, left_hip,    right_hip,    up, down, down,  up,   down,  down, up,    toes, toes,
           up,   left_collar, right_collar, up, left, right, left, right, left, right, left, right}},
         // GTA Combat
-        {{-1, 2, 11, 2, 3, 4, 5, 2, 7, 8, 9, 12, 13, 14, 0, 1, 0, 16, 17, 0, 19, 20},
+        {{gta22_parents.begin(), gta22_parents.end()},
          {none, up, up, right, right, right,     right, left, left,     left, left,
           up,   up, up, up,    up,    right_hip, down,  down, left_hip, down, down}}};
     return poses;

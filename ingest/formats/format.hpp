@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "base/files/mapped_file.hpp"
+#include "base/text/extension.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/formats/text_checksum.hpp"
 #include "kernels/cleaning.hpp"
@@ -39,12 +40,7 @@ struct RawText {
     TextChecksum* checksum = nullptr;    ///< takes in what is released
 
     /// Whether the path ends in `extension`, as in ".pkl", in any case.
-    bool ends_in(std::string_view extension) const {
-        const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-        return path.size() >= extension.size() &&
-               std::equal(extension.begin(), extension.end(), path.end() - std::ssize(extension),
-                          [&](char a, char b) { return lower(a) == lower(b); });
-    }
+    bool ends_in(std::string_view extension) const { return ends_in_extension(path, extension); }
 
     /// The text before `here` has been read for good: memory stays flat over a large file.
     void release(const char* here) const {

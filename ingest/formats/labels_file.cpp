@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/text/lines.hpp"
 #include "base/text/printable.hpp"
 #include "ingest/formats/name_pattern.hpp"
 
@@ -16,8 +17,7 @@ constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
 /// Records of comma-separated values, fields in quotes or not; a line break in quotes belongs to its field.
 class CsvReader {
   public:
-    CsvReader(std::string_view text, const std::string& where) : text_(text), where_(where) {
-        if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // the byte order mark of UTF-8
+    CsvReader(std::string_view text, const std::string& where) : text_(without_bom(text)), where_(where) {
         const auto header = text_.substr(0, text_.find('\n'));
         if (header.find('\t') != std::string_view::npos && header.find(',') == std::string_view::npos) {
             separator_ = '\t';

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/text/extension.hpp"
 #include "base/text/printable.hpp"
 
 namespace actformer::ingest {
@@ -47,14 +48,9 @@ std::vector<std::string_view> split_at_slashes(std::string_view path) {
 }  // namespace
 
 std::string_view without_extension(std::string_view path) {
-    const auto same = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + ('a' - 'A') : a) == b; };
     for (const std::string_view extension :
-         {".bvh", ".amc", ".asf", ".skeleton", ".npy", ".npz", ".csv", ".tsv", ".h5", ".hdf5", ".pkl"}) {
-        if (path.size() < extension.size()) continue;
-        const auto end = path.substr(path.size() - extension.size());
-        if (std::equal(end.begin(), end.end(), extension.begin(), same))
-            return path.substr(0, path.size() - end.size());
-    }
+         {".bvh", ".amc", ".asf", ".skeleton", ".npy", ".npz", ".csv", ".tsv", ".h5", ".hdf5", ".pkl"})
+        if (ends_in_extension(path, extension)) return path.substr(0, path.size() - extension.size());
     return path;
 }
 

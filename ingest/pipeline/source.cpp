@@ -18,6 +18,7 @@
 #include "base/files/file.hpp"
 #include "base/files/nearest_file.hpp"
 #include "base/files/regular_file.hpp"
+#include "base/text/extension.hpp"
 #include "base/text/html.hpp"
 #include "base/threads/parallel.hpp"
 
@@ -29,17 +30,10 @@ constexpr std::uint64_t least_mapped = std::uint64_t{32} << 20;
 
 using Extensions = std::vector<std::string>;
 
-bool ends_in(const std::string& name, std::string_view extension) {
-    if (name.size() <= extension.size()) return false;
-    return std::equal(extension.begin(), extension.end(),
-                      name.end() - static_cast<std::ptrdiff_t>(extension.size()),
-                      [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); });
-}
-
 /// The length of the one of `extensions` that `name` ends in; 0 where it ends in none.
 std::size_t extension_of(const std::string& name, const Extensions& extensions) {
     for (const auto& extension : extensions)
-        if (ends_in(name, extension)) return extension.size();
+        if (name.size() > extension.size() && ends_in_extension(name, extension)) return extension.size();
     return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files/file.hpp"
 #include "ingest/formats/bvh/bvh_options.hpp"
 #include "ingest/formats/bvh/bvh_survey.hpp"
 #include "ingest/formats/bvh/recordings.hpp"
@@ -50,7 +51,7 @@ class BvhFormat : public Format {
         std::uint64_t index = 0;
 
         RawText raw() const {
-            return {path, stem, std::string_view(text).substr(0, text.size() - 64), inside, index};
+            return {path, stem, std::string_view(text).substr(0, text.size() - text_padding), inside, index};
         }
     };
 

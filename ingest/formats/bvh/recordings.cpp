@@ -11,14 +11,6 @@ namespace {
 
 constexpr std::uint64_t largest_asf = std::uint64_t{16} << 20;
 
-bool ends_in(std::string_view path, std::string_view extension) {
-    if (path.size() < extension.size()) return false;
-    path.remove_prefix(path.size() - extension.size());
-    for (std::size_t i = 0; i < path.size(); ++i)
-        if ((path[i] | 0x20) != (extension[i] | 0x20)) return false;
-    return true;
-}
-
 /// Up to the last /, which is part of it.
 std::string folder_of(const std::string& path) {
     return path.substr(0, path.find_last_of('/') + 1);
@@ -41,11 +33,11 @@ Recordings::Recordings(const std::string& asf) {
 }
 
 bool Recordings::is_asf(const RawText& raw) {
-    return ends_in(raw.path, ".asf");
+    return raw.ends_in(".asf");
 }
 
 bool Recordings::is_amc(const RawText& raw) {
-    return ends_in(raw.path, ".amc");
+    return raw.ends_in(".amc");
 }
 
 void Recordings::add_asf(const RawText& raw) {

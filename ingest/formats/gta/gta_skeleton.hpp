@@ -8,8 +8,6 @@
 
 namespace actformer::ingest {
 
-inline constexpr std::size_t gta_joints = 22;
-
 /// (22) metres, 0 for the root: the mean over the game's characters, as the public tools' gta_adjacency.h5 tells it.
 std::vector<float> gta_bone_lengths();
 

@@ -170,7 +170,7 @@ class Reading {
         while (frames_ > 1 && !anybody(frames_ - 1)) --frames_;
     }
 
-    /// At most as many as are wanted, in the array's order.
+    /// At most as many as are wanted, those seen most first.
     std::vector<std::uint64_t> most_seen(const std::vector<bool>& seen, std::uint64_t persons) const {
         std::vector<std::uint64_t> frames_seen(persons, 0), order;
         for (std::uint64_t t = 0; t < frames_; ++t)

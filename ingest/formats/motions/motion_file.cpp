@@ -1,6 +1,5 @@
 #include "ingest/formats/motions/motion_file.hpp"
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -8,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/numpy/npz.hpp"
+#include "base/text/extension.hpp"
 #include "base/text/printable.hpp"
 #include "ingest/formats/motions/csv_motion.hpp"
 
@@ -17,12 +17,7 @@ namespace {
 enum class Kind { npy, npz, csv, hdf5 };
 
 Kind kind_of(std::string_view path) {
-    const auto ends = [&](std::string_view extension) {
-        return path.size() > extension.size() &&
-               std::equal(extension.begin(), extension.end(),
-                          path.end() - static_cast<std::ptrdiff_t>(extension.size()),
-                          [](char a, unsigned char b) { return a == std::tolower(b); });
-    };
+    const auto ends = [&](std::string_view extension) { return ends_in_extension(path, extension); };
     return ends(".npy")                   ? Kind::npy
            : ends(".npz")                 ? Kind::npz
            : ends(".h5") || ends(".hdf5") ? Kind::hdf5

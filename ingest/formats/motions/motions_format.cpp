@@ -45,14 +45,6 @@ T commonest(const std::map<T, std::uint64_t>& counts) {
         ->first;
 }
 
-/// (joints) metres of offsets (joints, 3) from the parent; 0 for the root.
-std::vector<float> lengths_of(const std::vector<float>& rest) {
-    std::vector<float> out(rest.size() / 3, 0);
-    for (std::size_t j = 1; j < out.size(); ++j)
-        out[j] = std::hypot(rest[3 * j], rest[3 * j + 1], rest[3 * j + 2]);
-    return out;
-}
-
 std::string place_of(const FoundMotion& motion, std::uint64_t clip) {
     if (motion.key.empty() && !motion.numbered) return {};
     return motion.key.empty() ? fmt::format("clip {}: ", clip)
@@ -402,7 +394,7 @@ class MotionsFormat::FileReader {
         if (own.size() == wanted) return own;
         if (file_.bone_length.size() == wanted) return file_.bone_length;
         const auto usual =
-            header_.rest.empty() ? usual_bone_lengths(header_.topology) : lengths_of(header_.rest);
+            header_.rest.empty() ? usual_bone_lengths(header_.topology) : rest_lengths(header_.rest);
         std::vector<float> out;
         for (std::size_t p = 0; p < header_.persons; ++p) out.insert(out.end(), usual.begin(), usual.end());
         return out;

@@ -16,14 +16,6 @@ using Places = std::array<Place, smpl_joints>;
 constexpr double least_length =
     1e-4;  // added to a limb's length before it is divided by it, as for all limbs
 
-Rotation product(const Rotation& a, const Rotation& b) {
-    Rotation out;
-    for (std::size_t i = 0; i < 9; i += 3)
-        for (std::size_t j = 0; j < 3; ++j)
-            out[i + j] = a[i] * b[j] + a[i + 1] * b[3 + j] + a[i + 2] * b[6 + j];
-    return out;
-}
-
 /// Every joint relative to its parent, turned as in the world; the root's place in the body.
 Places bones_of(const Quaternion* pose, const std::vector<double>& offsets) {
     std::array<Rotation, smpl_joints> turned;
@@ -70,14 +62,6 @@ void write_places(const Places& bones, float* to) {
             at[j][d] = at[static_cast<std::size_t>(smpl24_parents[j])][d] + bones[j][d];
             to[3 * j + d] = static_cast<float>(at[j][d]);
         }
-}
-
-/// (24) metres.
-std::vector<float> lengths_of(const std::vector<double>& offsets) {
-    std::vector<float> out(smpl_joints, 0);
-    for (std::size_t j = 1; j < smpl_joints; ++j)
-        out[j] = static_cast<float>(std::hypot(offsets[3 * j], offsets[3 * j + 1], offsets[3 * j + 2]));
-    return out;
 }
 
 }  // namespace
@@ -162,7 +146,7 @@ kernels::CleanedBatch gathered(std::span<const std::unique_ptr<RawClip>> clips,
     motion->reserve(numbers);
     kernels::CleanedBatch out;
     frames.clear();
-    const auto lengths = lengths_of(target.skeleton.offsets);
+    const auto lengths = rest_lengths(target.skeleton.offsets);
     for (const auto& raw : clips) {
         const auto& clip = static_cast<const RotationalClip&>(*raw);
         motion->insert(motion->end(), clip.values.begin(), clip.values.end());

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "base/error.hpp"
+#include "base/text/lines.hpp"
 #include "base/text/number.hpp"
 #include "base/text/printable.hpp"
 #include "ingest/formats/format.hpp"
@@ -40,9 +41,8 @@ inline bool is(std::string_view word, std::string_view keyword) {
 /// Words, numbers and lines of the text. The zero bytes after its end stop every number.
 class TextReader {
   public:
-    explicit TextReader(std::string_view text) : p_(text.data()), end_(text.data() + text.size()) {
-        if (text.substr(0, 3) == "\xEF\xBB\xBF") p_ += 3;  // the byte order mark of UTF-8
-    }
+    explicit TextReader(std::string_view text)
+        : p_(without_bom(text).data()), end_(text.data() + text.size()) {}
 
     const char* at() const { return p_; }
     void move_to(const char* p) { p_ = p; }

@@ -1,10 +1,11 @@
 #include "ingest/formats/uestc/video.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "base/text/lettered_number.hpp"
 
 namespace actformer::ingest::uestc {
 namespace {
@@ -16,16 +17,6 @@ constexpr std::array train_subjects{1,  2,  6,  12, 13, 16,  21,  24,  28,  29, 
 
 constexpr int going_round = 8;
 constexpr double half_picture = 270, focal_length = 500;  // pixels
-
-/// The number behind `letter` at the front of `text`, which both are taken from; -1 where they are not there.
-int take_number(std::string_view& text, char letter) {
-    int number = -1;
-    if (!text.starts_with(letter)) return number;
-    const auto [end, fault] = std::from_chars(text.data() + 1, text.data() + text.size(), number);
-    if (fault != std::errc()) return -1;
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    return number;
-}
 
 /// The diagonal of the box about points (count) in a plane.
 template <typename Point>
@@ -53,7 +44,7 @@ std::optional<VideoName> parse_video_name(std::string_view name) {
     std::array<int, 4> numbers{};
     constexpr std::string_view letters = "adpc";
     for (std::size_t i = 0; i < letters.size(); ++i) {
-        numbers[i] = take_number(name, letters[i]);
+        numbers[i] = take_number<int>(name, letters[i]).value_or(-1);
         if (numbers[i] < 0 || !name.starts_with('_')) return {};
         name.remove_prefix(1);
     }

@@ -63,7 +63,7 @@ std::vector<float> layout(const GtaClip& clip) {
         for (std::size_t t = 0; t < frames; ++t)
             for (std::size_t j = 0; j < gta_joints; ++j) {
                 const auto& at = clip[p][t];
-                Vec v = j == 0 ? at[0] - mean : at[j] - at[static_cast<std::size_t>(gta_parents[j])];
+                Vec v = j == 0 ? at[0] - mean : at[j] - at[static_cast<std::size_t>(gta22_parents[j])];
                 v = j == 0 ? Vec{0.2 * v.x, v.y, 0.2 * v.z} : v * (1 / (length(v) + 1e-4));
                 const std::array<double, 3> upright{v.x, -v.z, v.y};
                 for (std::size_t d = 0; d < 3; ++d)
@@ -76,8 +76,8 @@ void write_skeleton_file(const fs::path& file) {
     std::vector<float> parent(gta_joints * gta_joints, 0), adjacency(gta_joints * gta_joints, 0), lengths;
     for (std::size_t j = 0; j < gta_joints; ++j) {
         lengths.push_back(static_cast<float>(gta_lengths[j]));
-        if (gta_parents[j] < 0) continue;
-        const auto above = static_cast<std::size_t>(gta_parents[j]);
+        if (gta22_parents[j] < 0) continue;
+        const auto above = static_cast<std::size_t>(gta22_parents[j]);
         parent[above * gta_joints + j] = 1;
         adjacency[above * gta_joints + j] = adjacency[j * gta_joints + above] = 1;
     }

@@ -61,7 +61,7 @@ GtaPlaces gta_places(const Figure& f) {
     GtaPlaces at;
     const auto limb = [&](std::size_t joint, const Vec& towards) {
         at[joint] =
-            at[static_cast<std::size_t>(gta_parents[joint])] + normalised(towards) * gta_lengths[joint];
+            at[static_cast<std::size_t>(gta22_parents[joint])] + normalised(towards) * gta_lengths[joint];
     };
     at[hips22] = f.at[pelvis];
     double part = 0.15;  // of the way from the hips' frame to that of the ribs

@@ -3,18 +3,12 @@
 
 #include <array>
 
+#include "ingest/dataset/known_topologies.hpp"
 #include "ingest/synth/performer/pose.hpp"
 
 namespace actformer::ingest::synth {
 
-inline constexpr std::size_t gta_joints = 22;
-
-/// pelvis, middle of the head, neck, right collar to wrist, left collar to wrist, spine0 to spine3 (the lowest), top of the head, right
-/// hip to ankle, left hip to ankle.
-inline constexpr std::array<int, gta_joints> gta_parents{-1, 2,  11, 2, 3, 4, 5,  2,  7, 8,  9,
-                                                         12, 13, 14, 0, 1, 0, 16, 17, 0, 19, 20};
-
-/// Metres to the parent.
+/// Metres to the parent in gta22().
 inline constexpr std::array<double, gta_joints> gta_lengths{
     0,     0.114, 0.244, 0.0585, 0.166, 0.267, 0.253, 0.0585, 0.166, 0.267, 0.253,
     0.116, 0.074, 0.071, 0.023,  0.114, 0.118, 0.411, 0.404,  0.118, 0.411, 0.404};

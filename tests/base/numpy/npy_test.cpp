@@ -120,6 +120,15 @@ TEST(Npy, RefusesWhatIsDamagedOrHostile) {
     EXPECT_THROW(read_npy(npy("<c8", "(1,)", "00000000")).all_numbers(), Error) << "complex numbers";
 }
 
+TEST(Npy, RefusesTextsOfWhatIsNoCharacter) {
+    const auto texts = [](std::uint32_t last) {
+        return read_npy(npy("<U2", "(1,)", bytes_of<std::uint32_t>({0x20AC, last}))).all_texts();
+    };
+    EXPECT_EQ(texts(0x10FFFF), (std::vector<std::string>{"\xE2\x82\xAC\xF4\x8F\xBF\xBF"}));
+    EXPECT_THROW(texts(0x110000), Error);
+    EXPECT_THROW(texts(0xFFFFFFFF), Error);
+}
+
 TEST(Npz, ReadsWhatNumPyWrites) {
     const TempDir dir;
     const auto made = run_command("cd " + dir.path().string() +

@@ -49,12 +49,12 @@ std::vector<Point> places(const Recording& file, const Topology& tree) {
                 if (kind < 3)
                     step[kind] = value;
                 else
-                    own = product(own, turn_about(kind - 3, value));
+                    own = test::product(own, turn_about(kind - 3, value));
             }
             const Matrix above = joint.parent < 0 ? matrix({}) : turned[joint.parent];
-            at[j] = product(above, step);
+            at[j] = test::product(above, step);
             for (std::size_t d = 0; d < 3 && joint.parent >= 0; ++d) at[j][d] += at[joint.parent][d];
-            turned[j] = product(above, own);
+            turned[j] = test::product(above, own);
             if (joint.end_site) continue;
             const auto found = std::ranges::find(tree.names, joint.name) - tree.names.begin();
             for (std::size_t d = 0; d < 3; ++d) out[t * tree.joints() + found][d] = at[j][d] / 100;

@@ -104,7 +104,7 @@ TEST(MinimalTwist, JointsWithSeveralChildrenTakeTheBestRotation) {
         for (std::size_t c = 1; c < 4; ++c) {
             Point now, rest = found.rest[c];
             for (std::size_t d = 0; d < 3; ++d) now[d] = joints[t * 4 + c][d] - joints[t * 4][d];
-            const auto turned = product(matrix(q), rest);
+            const auto turned = test::product(matrix(q), rest);
             for (std::size_t d = 0; d < 3; ++d)
                 sum += std::pow(now[d] / length(now) - turned[d] / length(rest), 2);
         }

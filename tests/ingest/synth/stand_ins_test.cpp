@@ -380,7 +380,7 @@ TEST(GtaClips, PeopleFightWithTheirFeetOnTheFloorAndNobodyWalksThroughAnother) {
                     EXPECT_GT(std::min(at[18].y, at[21].y), 0.0);
                     EXPECT_LT(std::min(at[18].y, at[21].y), 0.2) << "one foot stands, or the person lies";
                     for (std::size_t j = 1; j < gta_joints; ++j)
-                        EXPECT_NEAR(length(at[j] - at[static_cast<std::size_t>(gta_parents[j])]),
+                        EXPECT_NEAR(length(at[j] - at[static_cast<std::size_t>(gta22_parents[j])]),
                                     gta_lengths[j], 1e-9);
                     for (std::size_t q = p + 1; q < persons; ++q)
                         EXPECT_GT(std::hypot(at[0].x - clip[q][t][0].x, at[0].z - clip[q][t][0].z), 0.35)
