@@ -62,12 +62,20 @@ TEST(IngestMotions, ReadsAnArrayAsItsHelpSays) {
     EXPECT_EQ(dataset.split("test"), std::vector<std::size_t>{1});
     EXPECT_EQ(dataset.clips()[0].frames, 3U);
 
-    const std::string name(40'000,
-                           'a');  // settings with names of classes are longer than an attribute of HDF5
-    write_file(dir / "labels.csv",
-               "name,label,subject\njoints_0," + name + ",s1\njoints_1,b" + name + ",s2\n");
+    // Settings with names of classes and joints are longer than an attribute of HDF5; either's names fit into one.
+    const auto write_named = [&](std::size_t size) {
+        const std::string name(size, 'a');
+        write_file(dir / "labels.csv",
+                   "name,label,subject\njoints_0," + name + ",s1\njoints_1,b" + name + ",s2\n");
+        return std::vector<std::string>{name, "b" + name};
+    };
+    write_file(dir / "skeleton.json",
+               R"({"names": ["a", "b", ")" + std::string(20'000, 'c') + R"("], "parents": [-1, 0, 1]})");
+    const auto names = write_named(30'000);
     ASSERT_EQ(run_actformer(command + in(dir, "long")).exit, 0);
-    EXPECT_EQ(ingest::Dataset(dir / "long").header().classes, (std::vector<std::string>{name, "b" + name}));
+    EXPECT_EQ(ingest::Dataset(dir / "long").header().classes, names);
+    write_named(40'000);
+    expect_refused(run_actformer(command + in(dir, "wrong")), {"2 classes", "would take 80002 bytes"});
 
     const auto plain = "ingest motions " + in(dir, "joints.npy") + " -o " + in(dir, "wrong");
     expect_refused(run_actformer(plain), {"no motion in any file", "give --topology"});
