@@ -199,7 +199,7 @@ struct Found {
 };
 
 /// The files below a folder. Links to folders are followed, each folder once: circles end, and where a folder is there both itself and
-/// by a link, its files have their own paths.
+/// by a link, its files have their own paths. Links to a folder that the given one lies in are not followed: what is beside it was not given.
 class FolderWalk {
   public:
     FolderWalk(std::size_t given, const Extensions& extensions, std::vector<Found>& items)
@@ -207,6 +207,11 @@ class FolderWalk {
 
     void walk(const fs::path& folder) {
         const auto before = static_cast<std::ptrdiff_t>(items_.size());
+        std::error_code ignored;  // a folder that is not there is refused when it is walked
+        for (auto above = fs::canonical(folder, ignored); above.has_relative_path();) {
+            above = above.parent_path();
+            is_new(above);
+        }
         for (links_.insert(folder); !links_.empty();) {
             const auto next = links_.extract(links_.begin()).value();
             if (is_new(next)) walk_unlinked(next);

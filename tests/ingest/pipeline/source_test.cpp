@@ -66,6 +66,8 @@ TEST_F(Files, LinkedFoldersAreFollowedAndCirclesEnd) {
     fs::create_directory_symlink(dir / "raw/b", dir / "elsewhere/CMU/01/back");  // another
     fs::create_directory_symlink(dir / "raw/c", dir / "raw/a/of c");             // what is there already
     fs::create_directory_symlink(dir / "raw/b/gone", dir / "raw/b/nowhere");
+    fs::create_directory_symlink(dir.path(), dir / "raw/b/outside");  // and so to what was not given
+    write_file(dir / "beside.skeleton", "not given");
     auto all = expected;
     all.insert(all.begin() + 1, {"walk", "linked"});
     EXPECT_EQ(contents({dir / "raw"}), all);
