@@ -127,10 +127,10 @@ TEST_F(ReportPage, IsWrittenAnewUntilTheSweepIsDone) {
     json.erase("checksum");
     write_file(results, json.dump());
     // The first page is there before the sweep ends.
-    const auto result = run_command(
-        "cd " + at("") + "; " + program() +
-        " report out -o r.html --watch 1 & until [ -e r.html ] || ! kill -0 $!; do sleep 0.1; done; cp r.html first.html; "
-        "mv done.json out/results.json; wait $!");
+    const auto result = run_command("cd " + at("") + "; " + program() +
+                                    " report out -o r.html --watch 1 & until [ -e r.html ] || ! kill -0 $!; "
+                                    "do sleep 0.1; done; cp r.html first.html; "
+                                    "mv done.json out/results.json; wait $!");
     ASSERT_EQ(result.exit, 0) << result.output;
     EXPECT_NE(result.output.find("8 figures measured"), std::string::npos) << result.output;
     EXPECT_NE(result.output.find("14 figures measured"), std::string::npos) << result.output;
