@@ -26,8 +26,8 @@ bool is_fingerprint_of(const Validator& validator, const std::string& kept) {
 }  // namespace
 
 void Validations::add_to(Json& state) const {
-    if (validator_) state["scorer"] = validator_->fingerprint();
     if (best_) {
+        state["scorer"] = best_scorer_;
         state["best"] = json_of(*best_);
         state["best"]["merit"] = best_selection_score_;
     }
@@ -39,6 +39,7 @@ bool Validations::take_from(const Json& state, bool goes_on) {
     if (goes_on && !is_fingerprint_of(*validator_, state.at("scorer"))) return false;
     best_ = report_from(state.at("best"));
     best_->best = true;
+    best_scorer_ = state.at("scorer");
     best_selection_score_ = state.at("best").at("merit");
     if (state.contains("last")) last_ = report_from(state.at("last"));
     return true;
@@ -52,6 +53,7 @@ std::optional<ValidationReport> Validations::end() {
     last_ = report;
     if (report.best) {
         best_ = report;
+        best_scorer_ = validator_->fingerprint();
         best_selection_score_ = validation->selection_score;
         unsaved_best_ = std::move(validation->weights);
     }

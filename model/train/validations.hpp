@@ -39,6 +39,7 @@ class Validations {
     Validator* validator_;
     std::optional<ValidationReport> best_, last_;
     std::optional<std::vector<Array>> unsaved_best_;
+    std::string best_scorer_;  ///< fingerprint of the validator that chose the best
     double best_selection_score_ = 0;
 };
 
