@@ -88,7 +88,8 @@ TEST_F(Report, ACellIsTheMeanOverSeeds) {
 TEST_F(Report, OneTrainingHasAnIntervalOverItsRepeats) {
     add("full", "table3/full/NTU-1P", {scores({0.2, 0.4, 0.6}, {1, 2, 6})});
     auto measured = read();
-    const auto& cell = group(fill_tables(measured), "table3/full/NTU-1P");
+    const auto tables = fill_tables(measured);
+    const auto& cell = group(tables, "table3/full/NTU-1P");
     EXPECT_EQ(over_what(cell.figures[0]), "3 repeats");
     EXPECT_FALSE(cell.figures[0].best) << "there is no other row";
 }
