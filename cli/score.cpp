@@ -237,7 +237,8 @@ eval::Scored scored_by(const ScoreOptions& options, const eval::GenerateSets& ge
 
 /// Options that change nothing in what is asked for.
 void refuse_without_effect(const CLI::App& command, const ScoreOptions& options) {
-    if (from_features(options))
+    const bool of_features = from_features(options);
+    if (of_features)
         refuse_given(command,
                      {"--keep-features", "--window", "--frames", "--split", "--labels", "--initial-noise",
                       "--repeats", "--per-class", "--generate-on"},
@@ -247,7 +248,7 @@ void refuse_without_effect(const CLI::App& command, const ScoreOptions& options)
                      "is for --generator; the motions of --generated are there");
     else
         refuse_given(command, {"--labels"}, "is for --generated; what --generator makes has labels");
-    if (!from_features(options) && options.motions.recogniser.empty())
+    if (!of_features && options.motions.recogniser.empty())
         refuse_given(command, {"--kid", "--fid-infinity", "--initial-noise"},
                      "takes a --recogniser that sees all persons; --single-recogniser alone gives FIDa");
 }

@@ -6,6 +6,7 @@
 #include "base/threads/parallel.hpp"
 
 namespace actformer::eval {
+
 std::vector<std::optional<Moments>> moments_by_class(const Samples& samples, unsigned threads) {
     const auto members = members_by_class(samples);
     std::vector<std::optional<Moments>> out(members.size());
