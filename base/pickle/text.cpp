@@ -72,16 +72,12 @@ std::string of_escaped_unicode(std::string_view line) {
 std::string latin1_of(std::string_view utf8) {
     std::string out;
     out.reserve(utf8.size());
-    for (std::size_t i = 0; i < utf8.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(utf8[i]);
-        if (byte < 0x80) {
-            out += utf8[i];
-            continue;
-        }
-        const bool two = (byte == 0xC2 || byte == 0xC3) && i + 1 < utf8.size() &&
-                         (static_cast<unsigned char>(utf8[i + 1]) & 0xC0) == 0x80;
-        if (!two) throw Error("bytes written as a text with a character above 255");
-        out += static_cast<char>((byte & 3) << 6 | (static_cast<unsigned char>(utf8[++i]) & 0x3F));
+    while (!utf8.empty()) {
+        const auto character = first_character(utf8);
+        if (!character || character->code > 0xFF)
+            throw Error("bytes written as a text with a character above 255");
+        out += static_cast<char>(character->code);
+        utf8.remove_prefix(character->bytes);
     }
     return out;
 }

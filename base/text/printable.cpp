@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "base/text/utf8.hpp"
+
 namespace actformer {
 namespace {
 
@@ -14,20 +16,9 @@ bool moves_text(std::uint32_t code) {
 }
 
 /// Bytes of the printable character that `text` starts with; 0 where there is none.
-std::size_t character(std::string_view text) {
-    const auto first = static_cast<unsigned char>(text[0]);
-    if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
-    const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
-    std::uint32_t code = first & (0xFFU >> (length + 1));
-    for (std::size_t i = 1; i < length; ++i) {
-        const auto next = static_cast<unsigned char>(text[i]);
-        if ((next & 0xC0) != 0x80) return 0;
-        code = code << 6 | (next & 0x3FU);
-    }
-    const std::uint32_t least = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;
-    const bool surrogate = code >= 0xD800 && code <= 0xDFFF, control = code < 0xA0;
-    return code < least || code > 0x10FFFF || surrogate || control || moves_text(code) ? 0 : length;
+std::size_t printable_bytes(std::string_view text) {
+    const auto character = first_character(text);
+    return !character || is_control(character->code) || moves_text(character->code) ? 0 : character->bytes;
 }
 
 }  // namespace
@@ -35,7 +26,7 @@ std::size_t character(std::string_view text) {
 std::string printable(std::string_view bytes) {
     std::string out;
     while (!bytes.empty()) {
-        const std::size_t length = character(bytes);
+        const std::size_t length = printable_bytes(bytes);
         if (length > 0)
             out += bytes.substr(0, length);
         else

@@ -2,20 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <unordered_set>
 
 #include "base/text/printable.hpp"
+#include "base/text/utf8.hpp"
 
 namespace actformer::ingest {
 namespace {
 
-/// Bytes of the character that `text` starts with: those of UTF-8 that follow the first go with it.
-std::size_t character(std::string_view text) {
-    const auto follows = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; };
-    std::size_t length = 1;
-    while (length < std::min<std::size_t>(text.size(), 4) && follows(text[length])) ++length;
-    return length;
+/// The character that `text` begins with, or its first byte where that is none.
+std::string_view first_of(std::string_view text) {
+    const auto character = first_character(text);
+    return text.substr(0, character ? character->bytes : 1);
 }
 
 bool is_allowed(std::string_view character, NameFor use) {
@@ -32,8 +30,8 @@ std::string cut(std::string name) {
     constexpr std::size_t longest = 200;
     if (name.size() <= longest) return name;
     std::size_t end = 0;
-    while (end + character(std::string_view(name).substr(end)) <= longest)
-        end += character(std::string_view(name).substr(end));
+    for (auto next = end; next <= longest; next += first_of(std::string_view(name).substr(next)).size())
+        end = next;
     return name.substr(0, end);
 }
 
@@ -42,7 +40,7 @@ std::string cut(std::string name) {
 std::string fit_name(std::string_view name, NameFor use) {
     std::string out;
     while (!name.empty()) {
-        const auto c = name.substr(0, character(name));
+        const auto c = first_of(name);
         out += is_allowed(c, use) ? std::string(c) : "_";
         name.remove_prefix(c.size());
     }

@@ -138,7 +138,7 @@ void draw_row(cv::Mat& row, const Stage& stage, const Measures& m, int columns) 
 void draw_title(cv::Mat& picture, const std::string& title, cv::Point at, int width, int size) {
     const int least = std::max(10, size * 3 / 4);
     auto text = fitted(title, width, size, Weight::bold);
-    while (size > least && text != printable(title)) text = fitted(title, width, --size, Weight::bold);
+    while (size > least && text != drawable(title)) text = fitted(title, width, --size, Weight::bold);
     draw_text(picture, text, at, size, style::ink, Weight::bold);
 }
 

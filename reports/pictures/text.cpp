@@ -12,27 +12,16 @@
 #include <opencv2/freetype.hpp>
 #endif
 
+#include "base/text/utf8.hpp"
 #include "reports/pictures/style.hpp"
 
 namespace actformer::reports {
 namespace {
 
-/// Bytes of the UTF-8 character at `text[i]`; 0 where there is none.
-std::size_t character(const std::string& text, std::size_t i) {
-    const auto byte = [&](std::size_t at) {
-        return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U;
-    };
-    const auto lead = byte(i);
-    const std::size_t length = lead < 0x80                   ? 1
-                               : lead >= 0xC2 && lead < 0xE0 ? 2
-                               : (lead & 0xF0) == 0xE0       ? 3
-                               : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                             : 0;
-    for (std::size_t n = 1; n < length; ++n)
-        if ((byte(i + n) & 0xC0) != 0x80) return 0;
-    const bool overlong = (lead == 0xE0 && byte(i + 1) < 0xA0) || (lead == 0xF0 && byte(i + 1) < 0x90);
-    const bool outside = (lead == 0xED && byte(i + 1) >= 0xA0) || (lead == 0xF4 && byte(i + 1) >= 0x90);
-    return overlong || outside ? 0 : length;
+/// Bytes of the character at `text[i]`, or of a broken one.
+std::size_t bytes_at(const std::string& text, std::size_t i) {
+    const auto character = first_character(std::string_view(text).substr(i));
+    return character ? character->bytes : 1;
 }
 
 /// A typeface. One is used at a time: FreeType's faces hold the state of the letter at hand.
@@ -89,7 +78,7 @@ Typeface::Typeface(Weight weight) : bold_(weight == Weight::bold) {
 /// OpenCV's stroke letters know ASCII alone.
 std::string ascii(const std::string& text) {
     std::string out;
-    for (std::size_t i = 0; i < text.size(); i += std::max<std::size_t>(1, character(text, i)))
+    for (std::size_t i = 0; i < text.size(); i += bytes_at(text, i))
         out += static_cast<unsigned char>(text[i]) < 0x80 ? std::string(1, text[i])
                : text.compare(i, 3, "…") == 0             ? "..."
                                                           : "?";
@@ -148,15 +137,13 @@ Typeface& typeface(Weight weight) {
 
 }  // namespace
 
-std::string printable(const std::string& text) {
+std::string drawable(std::string_view text) {
     std::string out;
-    for (std::size_t i = 0; i < text.size();) {
-        const auto length = character(text, i);
-        const auto lead = static_cast<unsigned char>(text[i]);
-        const bool control =
-            lead < 0x20 || lead == 0x7F || (lead == 0xC2 && static_cast<unsigned char>(text[i + 1]) < 0xA0);
-        out += length == 0 || control ? "?" : text.substr(i, length);
-        i += std::max<std::size_t>(1, length);
+    while (!text.empty()) {
+        const auto character = first_character(text);
+        const auto bytes = character ? character->bytes : 1;
+        out += character && !is_control(character->code) ? text.substr(0, bytes) : "?";
+        text.remove_prefix(bytes);
     }
     return out;
 }
@@ -169,11 +156,11 @@ std::string fitted(const std::string& text, int width, int size, Weight weight) 
     // No letter is narrower than an eighth of its height: what is longer than this cannot fit, and need not
     // be measured.
     std::vector<std::size_t> ends{0};
-    const auto whole = printable(text);
+    const auto whole = drawable(text);
     const auto most =
         static_cast<std::size_t>(std::max(0, width)) * 8 / static_cast<std::size_t>(std::max(1, size)) + 1;
     while (ends.back() < whole.size() && ends.size() <= most)
-        ends.push_back(ends.back() + character(whole, ends.back()));
+        ends.push_back(ends.back() + bytes_at(whole, ends.back()));
     if (ends.back() == whole.size() && text_width(whole, size, weight) <= width) return whole;
 
     const auto shortened = [&](std::size_t characters) { return whole.substr(0, ends[characters]) + "…"; };
@@ -186,7 +173,7 @@ std::string fitted(const std::string& text, int width, int size, Weight weight) 
 }
 
 void draw_text(cv::Mat& picture, const std::string& text, cv::Point at, int size, int rgb, Weight weight) {
-    if (!text.empty()) typeface(weight).draw(picture, printable(text), at, size, rgb);
+    if (!text.empty()) typeface(weight).draw(picture, drawable(text), at, size, rgb);
 }
 
 }  // namespace actformer::reports

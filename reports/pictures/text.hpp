@@ -3,13 +3,14 @@
 
 #include <opencv2/core.hpp>
 #include <string>
+#include <string_view>
 
 namespace actformer::reports {
 
 enum class Weight { regular, bold };
 
 /// `text` as UTF-8 that can be set on one line: broken bytes and control characters become '?'.
-std::string printable(const std::string& text);
+std::string drawable(std::string_view text);
 
 /// Width in pixels of `text` set `size` pixels high (line height without leading).
 int text_width(const std::string& text, int size, Weight weight = Weight::regular);

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "base/text/printable.hpp"
+#include "base/text/utf8.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -26,18 +27,13 @@ std::string header(const std::string& type, const NpzWriter::Shape& shape) {
     return out + text;
 }
 
-/// The code points of a text in UTF-8.
-std::u32string code_points(const std::string& text) {
+/// The code points of a text in UTF-8, U+FFFD for what is none.
+std::u32string code_points(std::string_view text) {
     std::u32string out;
-    for (const char c : text) {
-        const auto byte = static_cast<unsigned char>(c);
-        const unsigned lead_bits = byte >= 0xF0 ? 0x07 : byte >= 0xE0 ? 0x0F : 0x1F;
-        if (byte < 0x80)
-            out += byte;
-        else if (byte < 0xC0 && !out.empty())
-            out.back() = out.back() << 6 | (byte & 0x3FU);
-        else
-            out += static_cast<char32_t>(byte & lead_bits);
+    while (!text.empty()) {
+        const auto character = first_character(text);
+        out += character ? static_cast<char32_t>(character->code) : U'\uFFFD';
+        text.remove_prefix(character ? character->bytes : 1);
     }
     return out;
 }

@@ -11,7 +11,7 @@ TEST(FitName, BvhTakesPrintableAsciiWithoutBlanksAndBraces) {
     EXPECT_EQ(fit_name("left shoulder", NameFor::bvh), "left_shoulder");
     EXPECT_EQ(fit_name("a{b}\tc\n", NameFor::bvh), "a_b__c_");
     EXPECT_EQ(fit_name("\xE5\xB7\xA6 hip\xC3\xA9", NameFor::bvh), "__hip_");
-    EXPECT_EQ(fit_name("\xFF\x80", NameFor::bvh), "_");
+    EXPECT_EQ(fit_name("\xFF\x80", NameFor::bvh), "__");
     EXPECT_EQ(fit_name("", NameFor::bvh), "_");
     EXPECT_EQ(fit_name("mixamorig:Hips", NameFor::bvh), "mixamorig:Hips");
 }

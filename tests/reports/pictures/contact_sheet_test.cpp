@@ -189,8 +189,8 @@ TEST(Text, IsCutToFit) {
     EXPECT_LE(text_width(cut, 12), 80);
     EXPECT_TRUE(cut.ends_with("…"));
     EXPECT_EQ(fitted("walk", 3, 12), "");
-    EXPECT_EQ(printable("a\nb\xff"
-                        "c\xe2\x80\xa6\xe2\x80"),
+    EXPECT_EQ(drawable("a\nb\xff"
+                       "c\xe2\x80\xa6\xe2\x80"),
               "a?b?c…??");
 }
 
