@@ -26,17 +26,12 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
         text.replace(at, from.size(), to);
 }
 
-double number_in(const Settings& set, const char* key, double otherwise) {
-    const auto found = set.find(key);
-    if (found == set.end()) return otherwise;
-    double value = otherwise;
-    std::from_chars(found->second.data(), found->second.data() + found->second.size(), value);
-    return value;
-}
-
-/// What the configuration tells, unless `set` says it; else `otherwise`.
+/// The number that text_in finds; `otherwise` where it finds none.
 double number_in(const Settings& set, const fs::path& config, const char* key, double otherwise) {
-    return number_in(set, key, in_configuration(config, key, otherwise));
+    const auto text = text_in(set, config, key, {});
+    double value = otherwise;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
 }
 
 /// Windows a second that trainings of each kind were seen to take on two cores, by the width of their networks.
