@@ -76,6 +76,17 @@ void without_libuv(Options& options) {
     if constexpr (requires { options.useLibUV; }) options.useLibUV = false;
 }
 
+/// Gloo's and NCCL's errors have no class in common, and say where in their sources they were thrown.
+template <typename Act>
+void with_peers(const Place& place, const Act& act) {
+    try {
+        act();
+    } catch (const std::exception&) {
+        throw PeerLost("rank {} of {}: another process has ended or cannot be reached; that one says why",
+                       place.rank, place.size);
+    }
+}
+
 }  // namespace
 
 struct Processes::Group {
@@ -105,14 +116,14 @@ void Processes::all_reduce_mean(at::Tensor values) const {
     if (!group_) return;
     const at::NoGradGuard no_gradients;
     std::vector<at::Tensor> one{values};
-    group_->work->all_reduce_sum(one);
+    with_peers(place_, [&] { group_->work->all_reduce_sum(one); });
     values.div_(place_.size);
 }
 
 void Processes::broadcast(at::Tensor values) const {
     if (!group_) return;
     std::vector<at::Tensor> one{values};
-    group_->work->broadcast(one);
+    with_peers(place_, [&] { group_->work->broadcast(one); });
 }
 
 #else

@@ -6,9 +6,16 @@
 
 #include <memory>
 
+#include "base/error.hpp"
 #include "model/train/place.hpp"
 
 namespace actformer::model {
+
+/// Another process has ended or cannot be reached.
+class PeerLost : public Error {
+  public:
+    using Error::Error;
+};
 
 class Processes {
   public:
@@ -22,10 +29,10 @@ class Processes {
 
     const Place& place() const { return place_; }
 
-    /// The mean over all processes of what each has in `values`, in place, the same bits in each.
+    /// The mean over all processes of what each has in `values`, in place, the same bits in each. Throws PeerLost.
     void all_reduce_mean(at::Tensor values) const;
 
-    /// What rank 0 has in `values`, in each.
+    /// What rank 0 has in `values`, in each. Throws PeerLost.
     void broadcast(at::Tensor values) const;
 
   private:

@@ -359,9 +359,7 @@ TrainingResult train(const TrainingTask& task, Learner& learner, const LearnerSe
     const auto& place = setup.processes.place();
     try {
         return Loop(task, learner, setup, validator, run, events, safe_points).run();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::exception&) {  // rank 0 has stopped, and the others wait for it in vain
+    } catch (const PeerLost&) {  // a signal has stopped rank 0 too, perhaps before
         if (place.leads() || !safe_points.asked()) throw;
         safe_points.stop(fmt::format("rank {}: rank 0 keeps the checkpoint", place.rank));
     }
