@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <tuple>
 
+#include "base/text/lower_case.hpp"
 #include "base/threads/parallel.hpp"
 #include "kernels/buffer.hpp"
 #include "kernels/memory_pool.hpp"
@@ -55,12 +55,6 @@ DeviceInfo describe(const cl::Device& device, std::size_t index) {
     return info;
 }
 
-std::string lower(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
-    return out;
-}
-
 std::string names_of(const std::vector<DeviceInfo>& devices) {
     std::string out;
     for (const auto& d : devices) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", d.index, d.name);
@@ -106,11 +100,11 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_vi
     if (error == std::errc() && end == wish.data() + wish.size()) {
         if (number < devices.size()) return number;
     } else {
-        const auto text = lower(wish);
+        const auto text = lower_case(wish);
         for (const auto& d : devices)
-            if (lower(d.type) == text) return d.index;
+            if (lower_case(d.type) == text) return d.index;
         for (const auto& d : devices)
-            if (lower(d.name).find(text) != std::string::npos) return d.index;
+            if (lower_case(d.name).find(text) != std::string::npos) return d.index;
     }
     throw Error("{}there is no OpenCL device '{}'; there is {}", from, wish, names_of(devices));
 }

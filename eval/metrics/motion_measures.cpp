@@ -1,8 +1,9 @@
 #include "eval/metrics/motion_measures.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+
+#include "base/text/lower_case.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -101,9 +102,7 @@ std::vector<std::size_t> feet_among(std::span<const std::string> names) {
     const auto called = [&](std::initializer_list<const char*> words) {
         std::vector<std::size_t> found;
         for (std::size_t j = 0; j < names.size(); ++j) {
-            std::string name;
-            for (const char c : names[j])
-                name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+            const auto name = lower_case(names[j]);
             if (std::ranges::any_of(words, [&](const char* word) { return name.find(word) != name.npos; }))
                 found.push_back(j);
         }

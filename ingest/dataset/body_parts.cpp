@@ -1,10 +1,11 @@
 #include "ingest/dataset/body_parts.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <string_view>
+
+#include "base/text/lower_case.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -12,8 +13,7 @@ namespace {
 using Place = std::array<double, 3>;
 
 bool holds_any(const std::string& name, std::initializer_list<std::string_view> words) {
-    std::string lower;
-    for (const char c : name) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto lower = lower_case(name);
     return std::any_of(words.begin(), words.end(),
                        [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }

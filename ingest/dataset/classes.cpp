@@ -1,22 +1,16 @@
 #include "ingest/dataset/classes.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/text/lower_case.hpp"
 #include "base/text/nearest_word.hpp"
 #include "base/text/printable.hpp"
 
 namespace actformer::ingest {
 namespace {
-
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 /// "7", "A007", "a7"
 std::optional<std::uint32_t> number_in(std::string_view said) {
@@ -31,7 +25,8 @@ std::optional<std::uint32_t> number_in(std::string_view said) {
 std::optional<std::uint32_t> named(const std::string& said, const std::vector<std::string>& classes) {
     auto found = std::ranges::find(classes, said);
     if (found == classes.end())
-        found = std::ranges::find(classes, lower(said), [](const std::string& name) { return lower(name); });
+        found = std::ranges::find(classes, lower_case(said),
+                                  [](const std::string& name) { return lower_case(name); });
     if (found == classes.end()) return {};
     return static_cast<std::uint32_t>(found - classes.begin());
 }
@@ -50,7 +45,7 @@ std::uint32_t label_called(const std::string& said, const std::vector<std::strin
     if (number)
         throw Error("{}: there is no class {}; they are numbered from 1 to {} ('{}' .. '{}')", where, *number,
                     classes.size(), printable(classes.front()), printable(classes.back()));
-    const auto nearest = nearest_word(lower(said), classes);
+    const auto nearest = nearest_word(lower_case(said), classes);
     if (!nearest.empty())
         throw Error("{}: there is no class {}; did you mean '{}'?", where, shown, printable(nearest));
     throw Error("{}: there is no class {}; give a name or a number from 1 to {} ('{}' .. '{}')", where, shown,

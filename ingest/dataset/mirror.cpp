@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/error.hpp"
+#include "base/text/lower_case.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -31,7 +32,7 @@ std::vector<std::string> words_of(const std::string& name) {
             upper(c) && inside &&
             (!upper(name[i - 1]) || (i + 1 < name.size() && letter(name[i + 1]) && !upper(name[i + 1])));
         if (!inside || hump) words.emplace_back();
-        words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        words.back() += lower_case(c);
         inside = true;
     }
     return words;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/text/lower_case.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -35,7 +36,7 @@ void for_bodies(const JointMotion& motion, Use use) {
 std::vector<std::pair<std::size_t, std::size_t>> left_right_pairs(const ingest::Topology& topology) {
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     const auto stem = [](std::string name) {
-        for (auto& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        name = lower_case(name);
         for (const char* side : {"left", "right"})
             if (const auto at = name.find(side); at != std::string::npos)
                 return name.erase(at, std::string(side).size());
@@ -236,8 +237,7 @@ std::vector<double> limb_lengths(const JointMotion& motion) {
 }
 
 Side side_of(const std::string& joint_name) {
-    std::string name;
-    for (const char c : joint_name) name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto name = lower_case(joint_name);
     if (name.find("left") != std::string::npos) return Side::left;
     if (name.find("right") != std::string::npos) return Side::right;
 

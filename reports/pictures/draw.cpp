@@ -1,10 +1,10 @@
 #include "reports/pictures/draw.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "base/text/lower_case.hpp"
 #include "ingest/smpl/vertex_normals.hpp"
 #include "reports/pictures/mesh.hpp"
 #include "reports/pictures/style.hpp"
@@ -27,12 +27,8 @@ JointMotion body_of(const JointMotion& motion) {
 
 /// The first joint whose name has "head" in it; -1 without one.
 int head_joint(const ingest::Topology& topology) {
-    for (std::size_t j = 0; j < topology.joints(); ++j) {
-        std::string name;
-        for (const char c : topology.names[j])
-            name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        if (name.find("head") != std::string::npos) return static_cast<int>(j);
-    }
+    for (std::size_t j = 0; j < topology.joints(); ++j)
+        if (lower_case(topology.names[j]).find("head") != std::string::npos) return static_cast<int>(j);
     return -1;
 }
 

@@ -1,19 +1,18 @@
 #include "reports/pictures/render.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/text/lower_case.hpp"
 #include "reports/pictures/gif.hpp"
 #include "reports/pictures/video.hpp"
 
 namespace actformer::reports {
 
 PictureKind picture_kind(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (auto& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const auto extension = lower_case(path.extension().string());
     if (extension == ".png") return PictureKind::png;
     if (extension == ".gif") return PictureKind::gif;
     if (extension == ".mp4") return PictureKind::mp4;

@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/text/lines.hpp"
+#include "base/text/lower_case.hpp"
 #include "base/text/number.hpp"
 #include "base/text/printable.hpp"
 
@@ -20,7 +21,7 @@ constexpr std::uint64_t most_numbers = std::uint64_t{1} << 28;  // of one clip: 
 
 bool same_word(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+                      [](char x, char y) { return lower_case(x) == lower_case(y); });
 }
 
 std::string_view trimmed(std::string_view text) {
