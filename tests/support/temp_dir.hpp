@@ -32,12 +32,15 @@ class TempDir {
     std::filesystem::path path_;
 };
 
-/// A file of this name is taken away first: ext4 waits for the disk where one is cut to nothing and written again.
+/// A file of this name is taken away first, but for its permissions: ext4 waits for the disk where one is cut to nothing and written
+/// again.
 inline void write_file(const std::filesystem::path& path, const std::string& text) {
     std::filesystem::create_directories(path.parent_path());
-    if (std::filesystem::is_regular_file(std::filesystem::symlink_status(path)))
-        std::filesystem::remove(path);
+    const auto before = std::filesystem::symlink_status(path);
+    const bool again = std::filesystem::is_regular_file(before);
+    if (again) std::filesystem::remove(path);
     std::ofstream(path, std::ios::binary) << text;
+    if (again) std::filesystem::permissions(path, before.permissions());
 }
 
 inline std::string read_file(const std::filesystem::path& path) {
