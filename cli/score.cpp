@@ -241,7 +241,7 @@ void refuse_without_effect(const CLI::App& command, const ScoreOptions& options)
     if (of_features)
         refuse_given(command,
                      {"--keep-features", "--window", "--frames", "--split", "--labels", "--initial-noise",
-                      "--repeats", "--per-class", "--generate-on"},
+                      "--repeats", "--per-class", "--generate-on", "--device", "--batch"},
                      "features are scored as they are");
     else if (options.generate.generator.empty())
         refuse_given(command, {"--repeats", "--per-class", "--generate-on"},

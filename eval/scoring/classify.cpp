@@ -49,7 +49,7 @@ std::vector<Classified> classify(MotionSource& motions, FeatureExtractor& extrac
     std::vector<std::size_t> clip_at;  // of each row
     std::map<std::string, std::size_t> known;
     for (const auto& name : info.names) {
-        const auto [at, fresh] = known.try_emplace(clip_of(name), sums.size());
+        const auto [at, fresh] = known.try_emplace(info.are_windows ? clip_of(name) : name, sums.size());
         if (fresh) sums.push_back({at->first, 0, std::vector<double>(classes, 0)});
         clip_at.push_back(at->second);
     }

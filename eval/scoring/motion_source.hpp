@@ -27,6 +27,7 @@ struct MotionsInfo {
     std::vector<int> parents;                 ///< (K), or empty where they are not known
     std::uint32_t shortest = 0, longest = 0;  ///< frames
     std::string fingerprint;                  ///< of the file or of the dataset
+    bool are_windows = false;                 ///< of clips, each named CLIP@FIRST_FRAME
     std::string view;                         ///< what is shown of each clip, as in "whole motions"
     std::optional<ingest::BodyModel> body;    ///< that gives joint positions, where it is known
 };

@@ -35,7 +35,18 @@ void copy_whole(const fs::path& from, const fs::path& to) {
     file.commit();
 }
 
-void warn_of_lengths(ScoreReport& report, std::uint32_t window, const StoredFeatures& generated) {
+/// Frames of the motions of some files that tell them.
+struct Lengths {
+    std::uint32_t shortest = 0, longest = 0;  ///< 0: no file told
+
+    void add(const StoredFeatures& file) {
+        if (file.longest == 0) return;
+        shortest = longest == 0 ? file.shortest : std::min(shortest, file.shortest);
+        longest = std::max(longest, file.longest);
+    }
+};
+
+void warn_of_lengths(ScoreReport& report, std::uint32_t window, const Lengths& generated) {
     if (window == 0 || generated.longest == 0) return;
     if (generated.shortest == window && generated.longest == window) return;
     report.warnings.push_back(
@@ -92,11 +103,8 @@ class Sides {
         const auto file = file_of(set, first());
         make_missing(set);
         auto stored = read_features(file);
-        if (repeat == 0) {
-            first_repeat_.shortest = stored.shortest;
-            first_repeat_.longest = stored.longest;
-            if (!request_.keep.empty()) copy_whole(file, request_.keep / "generated.h5");
-        }
+        lengths_.add(stored);
+        if (repeat == 0 && !request_.keep.empty()) copy_whole(file, request_.keep / "generated.h5");
         auto out = observed(std::move(stored), set.name);
         if (whole_ && single_) add_groups(out, read_features(file_of(set, *single_)));
         if (fs::exists(measures_of(set.key))) out.motion = read_measures(measures_of(set.key));
@@ -109,8 +117,8 @@ class Sides {
     /// What was kept, damaged, and has been made anew.
     const std::vector<std::string>& notes() const { return notes_; }
 
-    /// The first repeat's lengths.
-    const StoredFeatures& first_repeat() const { return first_repeat_; }
+    /// Of the motions of all repeats so far.
+    const Lengths& lengths() const { return lengths_; }
 
   private:
     /// Whose features are the samples; the one-person recogniser's are the groups where it is not the only one.
@@ -254,7 +262,7 @@ class Sides {
     std::optional<MeasurementSetup> setup_;  ///< none where motions cannot be measured
     std::optional<FeatureExtractor> whole_, single_;
     std::vector<std::string> classes_, views_, notes_;
-    StoredFeatures first_repeat_;  ///< its frames
+    Lengths lengths_;
 };
 
 Json provenance_of_motions(const ScoreMotions& request, const Sides& sides, const std::string& device) {
@@ -294,7 +302,7 @@ Scored score_motions(const ScoreMotions& request, kernels::Device& device, const
     out.report = score_repeats(
         real, sides.classes(), request.generated.size(), [&](std::size_t i) { return sides.generated(i); },
         request.options);
-    warn_of_lengths(out.report, request.real.window, sides.first_repeat());
+    warn_of_lengths(out.report, request.real.window, sides.lengths());
     out.json = to_json(out.report);
     out.json["provenance"] = provenance_of_motions(request, sides, device.info().name);
     out.notes = sides.notes();
@@ -307,7 +315,11 @@ Scored score_features(const ScoreFeatures& request) {
     const auto window = stored.shortest == stored.longest ? stored.longest : 0;
     auto real = observed(std::move(stored), request.real.string());
     std::vector<StoredFeatures> files;
-    for (const auto& path : request.generated) files.push_back(read_features(path));
+    Lengths lengths;
+    for (const auto& path : request.generated) {
+        files.push_back(read_features(path));
+        lengths.add(files.back());
+    }
     for (auto& file : files) {
         widen(real.samples, file.samples.classes);
         widen(file.samples, real.samples.classes);
@@ -325,7 +337,7 @@ Scored score_features(const ScoreFeatures& request) {
             return observed(files[i], path.string());
         },
         request.options);
-    warn_of_lengths(out.report, window, files[0]);
+    warn_of_lengths(out.report, window, lengths);
     out.json = to_json(out.report);
     out.json["provenance"] = {
         {"version", ACTFORMER_VERSION},

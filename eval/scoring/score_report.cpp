@@ -104,6 +104,25 @@ std::optional<double> mean_of(const ScoreReport& report, Of of) {
     return interval(values).mean;
 }
 
+/// Whether its motions could be measured.
+bool is_measured(const Score& score) {
+    return !score.motion_by_class.empty();
+}
+
+std::size_t measured_repeats(const ScoreReport& report) {
+    return static_cast<std::size_t>(std::ranges::count_if(report.repeats, is_measured));
+}
+
+void warn_of_unmeasured(ScoreReport& report) {
+    const auto measured = measured_repeats(report), all = report.repeats.size();
+    if (measured > 0 && measured < all)
+        report.warnings.push_back(
+            fmt::format("accelerations, speeds and sliding are those of {} of {} repeats: the motions of the "
+                        "others do not tell their "
+                        "representation",
+                        measured, all));
+}
+
 Json class_json(const ScoreReport& report, std::size_t c) {
     const auto of_class = [c](const std::optional<Distances>& d) {
         return d ? d->by_class[c] : std::optional<double>();
@@ -119,11 +138,12 @@ Json class_json(const ScoreReport& report, std::size_t c) {
              {"fida", number(mean_of(report, fida))},
              {"floor", report.floor ? number(fid(report.floor->score)) : Json(nullptr)},
              {"fida_floor", report.floor ? number(fida(report.floor->score)) : Json(nullptr)}};
-    if (report.repeats[0].motion_by_class.empty()) return out;
+    if (measured_repeats(report) == 0) return out;
     for (const auto& value : metric_values())
         if (value.of_motion)
-            out[std::string(value.name)] = number(
-                mean_of(report, [&](const Score& s) { return s.motion_by_class[c].*(value.of_motion); }));
+            out[std::string(value.name)] = number(mean_of(report, [&](const Score& s) {
+                return is_measured(s) ? s.motion_by_class[c].*(value.of_motion) : std::optional<double>();
+            }));
     return out;
 }
 
@@ -169,9 +189,18 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
     report.protocol = options.protocol;
     report.classes = std::move(classes);
     const Scorer scorer(real, options);
+    bool has_logits = false;
+    std::string first;
     for (std::size_t i = 0; i < repeats; ++i) {
         const auto side = generated(i);
         check_comparable(real, side);
+        if (i == 0) {
+            has_logits = !side.samples.logits.empty();
+            first = side.source;
+        } else if (side.samples.logits.empty() == has_logits) {
+            throw Error("{} has logits and {} has none; score repeats that all have them, or none",
+                        has_logits ? first : side.source, has_logits ? side.source : first);
+        }
         report.repeats.push_back(scorer.score(side));
     }
     report.real = scorer.real().counts;
@@ -188,6 +217,7 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
     warn_of_counts(report);
     warn_of_collapse(report);
     warn_of_floor(report);
+    warn_of_unmeasured(report);
     if (report.real_accuracy)
         if (auto warning = near_chance(*report.real_accuracy, report.classes.size()); !warning.empty())
             report.warnings.push_back(std::move(warning));

@@ -21,7 +21,8 @@ struct ScoreReport {
     std::vector<std::string> warnings;
 };
 
-/// Scores `repeats` sides, which `generated(i)` gives one at a time, against `real`.
+/// Scores `repeats` sides, which `generated(i)` gives one at a time, against `real`. Throws Error as check_comparable does, and where
+/// some of them have logits and others have none.
 ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes, std::size_t repeats,
                           const std::function<Observed(std::size_t)>& generated,
                           const ScorerOptions& options);
@@ -32,13 +33,12 @@ constexpr std::size_t thin_class = 50;
 /// Of the repeats that have it; none where none has.
 std::optional<Interval> summary(const ScoreReport& report, const Metric& metric);
 
-/// One object: accuracy (0..1), fid_mean, fid_whole, fida_mean, fida_whole, diversity, multimodality, and what
-/// is measured of motions themselves (motion_measures.hpp), each
+/// One object: every metric of metrics() that a repeat has (accuracy 0..1), each
 ///   {"mean": .., "ci95": half-width or null, "repeats": [..]}      and absent where it is not measured;
 /// beside them
 ///   "floor"      the same metrics of the real side against itself, one number each, and how it was split
 ///   "real"       {"samples", "accuracy", "diversity", "multimodality"} of the real side; the motions' own metrics, where measured
-///   "per_class"  [{"class", "label", "real", "generated", "accuracy", "fid", "fida", "floor", and, where
+///   "per_class"  [{"class", "label", "real", "generated", "accuracy", "fid", "fida", "floor", "fida_floor", and, where
 ///                motions are measured, their own metrics}] means over the repeats, null where
 ///                there is none
 ///   "confusion"  (classes, classes) counts over all repeats, rows the class asked for

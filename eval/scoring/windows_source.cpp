@@ -29,6 +29,7 @@ class WindowsSource final : public MotionSource {
         : device_(&device), options_(options), dataset_(options.dataset) {
         info_ = describe(dataset_, options.joints);
         list_windows();
+        info_.are_windows = true;
         info_.shortest = info_.longest = options_.window;
         info_.view = fmt::format("split {}, windows of {} frames", options_.split, options_.window);
     }
@@ -109,7 +110,10 @@ MotionsInfo describe(const ingest::Dataset& dataset, ingest::Joints joints) {
 }
 
 std::string clip_of(const std::string& window) {
-    return window.substr(0, window.rfind('@'));
+    const auto at = window.rfind('@');
+    const bool numbered = at != std::string::npos && at + 1 < window.size() &&
+                          window.find_first_not_of("0123456789", at + 1) == std::string::npos;
+    return numbered ? window.substr(0, at) : window;
 }
 
 }  // namespace actformer::eval

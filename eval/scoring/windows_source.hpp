@@ -25,7 +25,7 @@ std::unique_ptr<MotionSource> open_windows(kernels::Device& device, const Window
 /// What is known of a dataset's clips, without names and labels.
 MotionsInfo describe(const ingest::Dataset& dataset, ingest::Joints joints = ingest::Joints::own);
 
-/// The clip that a window's name tells: "walk" of "walk@60".
+/// The clip that a window's name tells, "walk" of "walk@60"; any other name is a clip's own.
 std::string clip_of(const std::string& window);
 
 }  // namespace actformer::eval

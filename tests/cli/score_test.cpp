@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/hdf5/reader.hpp"
+#include "base/hdf5/writer.hpp"
 #include "eval/metrics/confusion.hpp"
 #include "eval/scoring/features_file.hpp"
 #include "eval/stgcn/weights.hpp"
@@ -275,8 +276,7 @@ TEST_F(Score, OfFeaturesNeedsNoRecogniser) {
     if (!has_reference_python()) GTEST_SKIP() << "needs " << shared("reference") << ", and python3 with h5py";
     features("r.h5", labels_of({30, 40, 12}), 32, 3, 1);
     features("g.h5", labels_of({20, 9, 50}), 32, 3, 2);
-    const auto json = scored("--real-features " + at("r.h5") + " --generated-features " + at("g.h5") +
-                             " --device none-of-the-devices");
+    const auto json = scored("--real-features " + at("r.h5") + " --generated-features " + at("g.h5"));
     const auto theirs = oracle("r.h5", "g.h5");
     expect_near(json["accuracy"], theirs["accuracy"]);
     expect_near(json["fid_mean"], theirs["fid_mean"]);
@@ -408,7 +408,8 @@ TEST_F(Score, RefusesOptionsWithoutEffect) {
     for (const char* option : {"--repeats 3", "--per-class 5", "--generate-on cpu"})
         expect_refused(made + " " + option,
                        {option[2] == 'g' ? "--generate-on" : "--", "--generator", "leave it out"});
-    for (const char* option : {"--window 30", "--frames 9", "--split all", "--repeats 2"})
+    for (const char* option :
+         {"--window 30", "--frames 9", "--split all", "--repeats 2", "--device cpu", "--batch 7"})
         expect_refused("--real-features " + at("r.h5") + " --generated-features " + at("r.h5") + " " + option,
                        {"features are scored as they are; leave it out"});
     for (const char* option : {"--kid", "--fid-infinity"})
@@ -518,6 +519,44 @@ TEST_F(Score, RefusesWhatDoesNotFit) {
     EXPECT_EQ(result.exit, 1);
     EXPECT_NE(result.output.find("single.h5: one sample is too few"), std::string::npos) << result.output;
     EXPECT_FALSE(fs::exists(at("s.json")));
+}
+
+TEST_F(Score, OfRepeatsThatCanBeMeasuredAndOthersSaysSo) {
+    motions("bare.h5", 4, 3, 1, 1, 40);
+    ingest::MotionsWriter writer(dir / "described.h5");
+    writer.describe(ingest::subjects_of(ingest::Dataset(datasets() / "ntu-1p")));
+    for (unsigned c = 0; c < 4; ++c)
+        for (unsigned i = 0; i < 3; ++i)
+            writer.add(fmt::format("A{:03}_{}", c + 1, i), made_motion(60, 1, 500 + c * 10 + i));
+    writer.finish();
+    const auto alone = scored(one_person() + "--generated " + at("described.h5"));
+    for (const auto& files :
+         {at("described.h5") + " " + at("bare.h5"), at("bare.h5") + " " + at("described.h5")}) {
+        const auto json = scored(one_person() + "--generated " + files);
+        std::string warnings;
+        for (const auto& line : json["warnings"]) warnings += line.get<std::string>() + "\n";
+        EXPECT_NE(warnings.find("are those of 1 of 2 repeats"), std::string::npos) << warnings;
+        EXPECT_NE(warnings.find("motions of 40 to 60 frames are compared with windows of 60"),
+                  std::string::npos)
+            << warnings;
+        EXPECT_EQ(json["limb_acceleration"]["mean"], alone["limb_acceleration"]["mean"]);
+        EXPECT_EQ(json["per_class"][0]["limb_acceleration"], alone["per_class"][0]["limb_acceleration"]);
+    }
+}
+
+TEST_F(Score, RefusesRepeatsOfWhichSomeHaveNoLogits) {
+    features("r.h5", labels_of({30, 40}), 8, 2, 1);
+    features("with.h5", labels_of({30, 40}), 8, 2, 2);
+    hdf5::Writer bare(dir / "without.h5");
+    const auto labels = labels_of({30, 40});
+    const auto values = Reader(dir / "r.h5").read<float>("features");
+    bare.write<float>("features", {70, 8}, values);
+    bare.write<std::uint32_t>("labels", {70}, labels);
+    bare.finish();
+    const auto with = at("with.h5"), without = at("without.h5");
+    for (const auto& files : {with + " " + without, without + " " + with})
+        expect_refused("--real-features " + at("r.h5") + " --generated-features " + files,
+                       {with + " has logits and " + without + " has none"});
 }
 
 TEST_F(Score, RefusesFeaturesThatDoNotFit) {
