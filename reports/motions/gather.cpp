@@ -34,17 +34,13 @@ std::vector<std::size_t> spread(const std::vector<Candidate>& candidates, std::s
     for (auto& [label, indices] : by_class) classes.push_back(std::move(indices));
 
     std::vector<std::size_t> shares(classes.size(), 0);
-    count = std::min(count, candidates.size());
-    for (std::size_t left = count, round = 0; left > 0; ++round) {
-        const std::size_t now = std::min(left, classes.size());
-        for (std::size_t i = 0; i < now; ++i) {
-            auto& share = shares[i * classes.size() / now];
-            if (share < classes[i * classes.size() / now].size()) {
-                ++share;
-                --left;
-            }
-        }
-        if (round > candidates.size()) break;
+    for (auto left = std::min(count, candidates.size()); left > 0;) {
+        std::vector<std::size_t> open;  // classes with motions left
+        for (std::size_t c = 0; c < classes.size(); ++c)
+            if (shares[c] < classes[c].size()) open.push_back(c);
+        const auto now = std::min(left, open.size());
+        for (std::size_t i = 0; i < now; ++i) ++shares[open[i * open.size() / now]];
+        left -= now;
     }
     std::vector<std::size_t> picks;
     for (std::size_t c = 0; c < classes.size(); ++c)

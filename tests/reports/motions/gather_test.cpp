@@ -78,3 +78,28 @@ TEST(Gather, RefusesWhatItCannotTell) {
     EXPECT_NE(error_of(rotations, wanted).find("has motions in rot6d"), std::string::npos)
         << error_of(rotations, wanted);
 }
+
+TEST(Gather, TakesAsManyAsAskedForHoweverUnevenTheClasses) {
+    const TempDir dir;
+    const ingest::Dataset dataset(arms_in(Representation::xyz));
+    ingest::MotionsWriter writer(dir / "m.h5");
+    writer.describe(ingest::subjects_of(dataset));
+    const auto motion = dataset.motion(0);
+    for (const char* name : {"A001_0", "A002_0"}) writer.add(name, motion);
+    for (int i = 0; i < 10; ++i) writer.add(fmt::format("A003_{}", i), motion);
+    writer.finish();
+    const auto labels = [&](const Wanted& wanted) {
+        std::vector<int> counts(3, 0);
+        for (const auto& one : gather(dir / "m.h5", wanted)) ++counts.at(one.label.value());
+        return counts;
+    };
+    Wanted wanted;
+    for (int count = 3; count <= 12; ++count) {
+        wanted.count = static_cast<std::size_t>(count);
+        EXPECT_EQ(labels(wanted), (std::vector<int>{1, 1, count - 2}));
+    }
+    wanted.count = 50;
+    EXPECT_EQ(labels(wanted), (std::vector<int>{1, 1, 10}));
+    wanted.per_class = 4;
+    EXPECT_EQ(labels(wanted), (std::vector<int>{1, 1, 4}));
+}
