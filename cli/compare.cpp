@@ -11,7 +11,9 @@
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/process/process.hpp"
+#include "base/process/shipped.hpp"
 #include "base/text/loose_json.hpp"
+#include "base/text/lower_case.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/format.hpp"
@@ -75,11 +77,19 @@ std::string name_beside(const fs::path& path, const fs::path& other) {
     return name;
 }
 
+/// The last part of a path, also of "." and "cmu/".
+std::string last_part(const fs::path& path) {
+    return fs::absolute(path / "").lexically_normal().parent_path().filename().string();
+}
+
+/// How the name of every comparison's sweep begins; reports tell them apart by their folders.
+const std::string comparison_in = "comparison in ";
+
 reports::SweepRow side(const char* letter, const fs::path& path, const fs::path& other,
                        const CompareOptions& options) {
     reports::SweepRow row;
     row.name = fmt::format("{}, {}", letter, name_beside(path, other));
-    row.data = "real";
+    row.data = last_part(options.real);
     row.recogniser = "recogniser";
     row.split = options.split;
     row.device = options.device;
@@ -95,8 +105,8 @@ reports::SweepRow side(const char* letter, const fs::path& path, const fs::path&
 
 reports::Sweep comparison(const CompareOptions& options) {
     reports::Sweep sweep;
-    sweep.name = "comparison";
-    sweep.datasets["real"].path = options.real.string();
+    sweep.name = comparison_in + last_part(options.out);
+    sweep.datasets[last_part(options.real)].path = options.real.string();
     sweep.recognisers["recogniser"].weights = options.recogniser.string();
     sweep.rows = {side("A", options.a, options.b, options), side("B", options.b, options.a, options)};
     return sweep;
@@ -204,18 +214,42 @@ Json to_json(const std::vector<Compared>& all, const std::vector<std::string>& w
     return {{"metrics", metrics}, {"warnings", warnings}, {"report", page.string()}};
 }
 
+/// As a table may be called.
+std::string table_id(std::string name) {
+    std::ranges::replace_if(
+        name, [](char c) { return c < '0' || (c > '9' && lower_case(c) < 'a') || c > 'z'; }, '-');
+    return name;
+}
+
 /// The table that stands first in the report: both sides, with the metrics that they have.
-void add_table(reports::Sweep& sweep, const std::vector<Compared>& all, const std::string& dataset) {
+void add_table(reports::Sweep& sweep, const std::vector<Compared>& all) {
+    const auto id = table_id(sweep.name);
+    const auto& dataset = sweep.rows[0].data;
     Json names = Json::array(), rows = Json::object();
     for (const auto& one : all) names.push_back(one.metric->name);
     for (auto& row : sweep.rows) {
         rows[row.name] = Json::object();
-        row.fills = {"comparison/" + row.name + "/" + dataset};
+        row.fills = {id + "/" + row.name + "/" + dataset};
     }
     const Json table{{"title", "Comparison"},
                      {"columns", Json::array({{{"dataset", dataset}, {"metrics", names}}})},
                      {"rows", rows}};
-    sweep.tables = Json{{"comparison", table}}.dump();  // JSON is YAML
+    sweep.tables = Json{{id, table}}.dump();  // JSON is YAML
+}
+
+/// Also what comes with the program, as weights/cmu/actformer.h5; as it is where there is neither, which the plan says.
+fs::path found(const fs::path& path) {
+    const auto shipped = shipped_folder() / path;
+    return !fs::exists(path) && fs::exists(shipped) ? shipped : path;
+}
+
+/// A folder that holds something else would lose it, or be taken for the comparison.
+void refuse_other_than_comparisons(const fs::path& out) {
+    refuse_other_folders(out);
+    if (!fs::exists(out / "results.json")) return;
+    const auto name = loose::text(loose::read(out / "results.json"), "sweep");
+    if (!name.starts_with(comparison_in))
+        throw Error("{}: holds the sweep '{}'; choose another -o", out.string(), name);
 }
 
 /// Differences are taken seed by seed, and a motions file is of one.
@@ -247,6 +281,7 @@ reports::SweepEvents events_told(const fs::path& out) {
 void run(const CompareOptions& options) {
     refuse_a_mixed_pair(options);
     const auto out = fs::absolute(options.out).lexically_normal();
+    refuse_other_than_comparisons(out);
     auto sweep = comparison(options);
     const SweepJobs jobs((program_folder() / "actformer").string(), out);
     const auto plan = reports::make_plan(sweep, {}, jobs);
@@ -260,7 +295,7 @@ void run(const CompareOptions& options) {
     if (all.empty())
         throw Error("{} and {}: no metric that both have", options.a.string(), options.b.string());
     const auto warnings = warnings_of(a, b);
-    add_table(sweep, all, fs::absolute(options.real / "").parent_path().filename().string());
+    add_table(sweep, all);
     reports::write_results(sweep, plan, out);
     write_report(
         {.folders = {out}, .out = out / "report.html", .title = "A comparison", .filled_only = true});
@@ -290,7 +325,7 @@ void add_compare(CLI::App& app) {
     command->add_option("--per-class", options->per_class, "Motions of a class")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    command->add_option("--window", options->window, "Frames a motion")
+    command->add_option("--window", options->window, "Frames a window of the real motions")
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
     add_device_option(command, options->device);
@@ -309,6 +344,8 @@ void add_compare(CLI::App& app) {
         "Differences are taken seed by seed. A difference whose 95 % interval contains 0 is not "
         "significant. Where nearest to real is best, distances from real are compared.\n");
     command->callback([options, command] {
+        options->a = found(options->a);
+        options->b = found(options->b);
         if (holds_motions(options->a) && holds_motions(options->b))
             refuse_given(*command, {"--repeats", "--per-class"}, "motions files are scored as they are");
         run(*options);

@@ -17,7 +17,6 @@
 #include "cli/say.hpp"
 #include "cli/shipped_option.hpp"
 #include "cli/sweep_jobs.hpp"
-#include "reports/page/training.hpp"
 #include "reports/sweep/run.hpp"
 #include "reports/sweep/split_check.hpp"
 
@@ -77,11 +76,14 @@ void print_plan(const reports::Plan& plan, const SweepOptions& options, const Sw
 
 /// [{"id", "title", "state", "seconds": that it took, or may take, "why": it cannot be done, "commands"}]
 Json jobs_json(const reports::Plan& plan, const SweepOptions& options, const SweepJobs& jobs) {
+    const auto in_slurm = options.status ? reports::jobs_in_slurm(options.out) : std::nullopt;
     const auto status = reports::statuses(plan, options.out);
     Json out = Json::array();
     for (std::size_t i = 0; i < plan.jobs.size(); ++i) {
         const auto& job = plan.jobs[i];
-        Json one{{"id", job.id}, {"title", job.title}, {"state", name_of(status[i].state)}};
+        const bool queued = status[i].state == JobState::waiting && in_slurm && in_slurm->contains(job.id);
+        Json one{
+            {"id", job.id}, {"title", job.title}, {"state", queued ? "queued" : name_of(status[i].state)}};
         const auto seconds =
             status[i].state == JobState::done ? status[i].seconds : reports::estimate(plan, status, i);
         if (seconds) one["seconds"] = *seconds;
@@ -141,14 +143,6 @@ void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Swee
         throw Error(
             "{}: {} of {} failed or could not begin; the rest is done, and the same command tries them again",
             options.file.string(), failed, counted(plan.jobs.size(), "job"));
-}
-
-/// The folder of a dataset or a training is no place for a sweep's jobs.
-void refuse_other_folders(const fs::path& out) {
-    if (fs::exists(out / "results.json")) return;
-    const char* held = fs::exists(out / "dataset.json") ? "a dataset" : nullptr;
-    if (!held && reports::training_row(out)) held = "a training";
-    if (held) throw Error("{}: holds {}, not a sweep; choose another -o", out.string(), held);
 }
 
 /// After a dry run has told them one by one.
@@ -237,7 +231,12 @@ void add_sweep(CLI::App& app) {
              "Interrupted, the same command goes on where it was. A row that fails stops no other.\n");
     command->callback([options, command] {
         if (options->slurm) refuse_given(*command, {"--jobs"}, "Slurm decides how many run at once");
-        if (!options->only.empty()) refuse_given(*command, {"--json"}, "a single job prints no results");
+        if (!options->only.empty())
+            refuse_given(*command, {"--json", "--dry-run", "--status", "--slurm", "--jobs"},
+                         "--only runs a single job here");
+        if (options->status)
+            refuse_given(*command, {"--slurm", "--dry-run", "--jobs"},
+                         "--status tells of all jobs, here and on Slurm, and runs none");
         run(*options);
     });
 }

@@ -4,12 +4,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
 #include "base/process/process.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "reports/page/training.hpp"
 #include "reports/sweep/plan.hpp"
 
 namespace actformer::cli {
@@ -114,6 +116,13 @@ std::string SweepJobs::run(const Job& job, const std::filesystem::path& log) con
                        : result.last_line;
     }
     return {};
+}
+
+void refuse_other_folders(const std::filesystem::path& out) {
+    if (exists(out / "results.json")) return;
+    const char* held = exists(out / "dataset.json") ? "a dataset" : nullptr;
+    if (!held && training_row(out)) held = "a training";
+    if (held) throw Error("{}: holds {}, not a sweep; choose another -o", out.string(), held);
 }
 
 reports::SweepEvents told_events(const std::filesystem::path& out) {

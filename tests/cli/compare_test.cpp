@@ -75,9 +75,31 @@ TEST_F(Compare, TakesDifferencesSeedBySeed) {
 
     const auto report = run_actformer("report " + at("out") + " --json");
     const auto first = Json::parse(report.output.substr(report.output.find('{')))["tables"][0];
+    EXPECT_EQ(first["id"], "comparison-in-out");
     EXPECT_EQ(first["title"], "Comparison");
     EXPECT_EQ(first["rows"][1]["name"], "B, weights-last.h5 of other");
     EXPECT_NE(read_file(dir / "out/report.html").find("B, weights-last.h5 of other"), std::string::npos);
+}
+
+TEST_F(Compare, StaysOutOfOtherFolders) {
+    const auto before = read_file(dir / "one/config.yaml");
+    expect_refused(compare("one", "other", "one"), {"/one: holds a training", "another -o"});
+    write_file(dir / "data/dataset.json", "{}");
+    expect_refused(compare("one", "other", "data"), {"/data: holds a dataset", "another -o"});
+    write_file(dir / "swept/results.json", "{\"format\": 1, \"sweep\": \"mini\", \"rows\": []}");
+    expect_refused(compare("one", "other", "swept"), {"/swept: holds the sweep 'mini'", "another -o"});
+    for (const auto* name : {"one/jobs", "one/results.json", "data/results.json", "swept/jobs"})
+        EXPECT_FALSE(fs::exists(dir / name)) << name;
+}
+
+TEST_F(Compare, TwoOfThemStandInOneReport) {
+    for (const auto* out : {"first", "second"}) ASSERT_EQ(compare("one", "other", out).exit, 0);
+    const auto report =
+        run_actformer("report " + at("first") + " " + at("second") + " -o " + at("both.html") + " --json");
+    ASSERT_EQ(report.exit, 0) << report.output;
+    const auto tables = Json::parse(report.output.substr(report.output.find('{')))["tables"];
+    EXPECT_EQ(tables[0]["id"], "comparison-in-first");
+    EXPECT_EQ(tables[1]["id"], "comparison-in-second");
 }
 
 TEST_F(Compare, ADeviceThatIsNotThereComesWithTheOptionToGive) {

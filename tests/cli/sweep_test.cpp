@@ -212,6 +212,18 @@ TEST_F(Sweep, PrintsItsPlanAndChangesNothing) {
     EXPECT_NE(status.output.find("2 of 2 rows done"), std::string::npos) << status.output;
 }
 
+TEST_F(Sweep, RunsNothingWhereItIsAskedToTell) {
+    sweep_file(two_rows);
+    for (const auto* other : {"--dry-run", "--status", "--slurm", "--jobs 2"})
+        actformer::test::expect_refused(sweep(std::string("--only score-0 ") + other),
+                                        {"--only runs a single job", "leave it out"});
+    for (const auto* other : {"--dry-run", "--slurm"})
+        actformer::test::expect_refused(sweep(std::string("--status ") + other),
+                                        {"--status tells of all jobs", "leave it out"});
+    EXPECT_FALSE(fs::exists(at("out")));
+    EXPECT_FALSE(fs::exists(at("calls")));
+}
+
 TEST_F(Sweep, ADryRunFailsWhereAJobCannotBeDone) {
     sweep_file("  full: {config: none.yaml}\n");
     const auto plan = sweep("--dry-run");
