@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/text/loose_json.hpp"
 #include "eval/scoring/features_file.hpp"
@@ -209,7 +210,7 @@ class Details {
         out["curves"] = trained ? curves(*trained) : Json{{"generator", nullptr}, {"recogniser", nullptr}};
         out["projection"] = out["points"] = out["motions"] = nullptr;
         if (!run) return out;
-        attempt(row, "features", [&] { add_points(out, row, *run, classes); });
+        attempt(row, "features", [&] { add_points(out, *run, classes); });
         attempt(row, "motions", [&] { add_motions(out, row, *run, classes); });
         return out;
     }
@@ -240,8 +241,8 @@ class Details {
         return {{"xy", packed(xy)}, {"labels", packed(labels)}};
     }
 
-    void add_points(Json& out, const MeasuredRow& row, const MeasuredRun& run, const Classes& classes) {
-        const auto key = fmt::format("{}|{}|{}", run.dataset.string(), run.recogniser.string(), row.split);
+    void add_points(Json& out, const MeasuredRun& run, const Classes& classes) {
+        const auto key = checksum_file(run.features / "real.h5");
         auto known = projections_.find(key);
         if (known == projections_.end())
             known =

@@ -12,7 +12,7 @@ struct DetailOptions {
     std::uint32_t most_samples = 4;         ///< motions a class, real and generated
 };
 
-/// The page's data: {"version", "rows", "projections", "topologies", "motion_sets"}; reports/page/assets/page.js draws it. What is
+/// The page's data: {"version", "class_columns", "rows", "projections", "topologies", "motion_sets"}; reports/page/assets/page.js draws it. What is
 /// missing or damaged is left out, with a line in the notices of `measured`.
 nlohmann::ordered_json details(Measured& measured, const DetailOptions& options = {});
 

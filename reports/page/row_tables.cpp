@@ -11,16 +11,37 @@
 namespace actformer::reports {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using Rows = std::vector<const MeasuredRow*>;
 
-/// Those with scores, by what they were scored against, in the order in which they come.
+/// Frames of the real windows; null where the scores do not tell.
+const Json& window_of(const MeasuredRow& row) {
+    return loose::member(loose::member(loose::member(row.shown()->scored, "provenance"), "real"), "window");
+}
+
+std::string in_windows(const Json& frames) {
+    return frames.is_number_unsigned() ? fmt::format(", windows of {} frames", frames.get<std::uint64_t>())
+                                       : "";
+}
+
+/// Against what, and by which recogniser a row was scored: figures of others are not to be held against its own.
+using Against = std::tuple<std::string, std::string, std::string, std::string, std::string>;
+
+Against against(const MeasuredRow& row) {
+    const auto& provenance = loose::member(row.shown()->scored, "provenance");
+    std::string recognisers;
+    for (const char* which : {"recogniser", "single_recogniser"})
+        recognisers += loose::member(loose::member(provenance, which), "checksum").dump();
+    return {row.sweep, row.dataset, row.split, recognisers, window_of(row).dump()};
+}
+
+/// Those with scores, in the order in which they come.
 std::vector<Rows> held_together(const Measured& measured) {
-    using Against = std::tuple<std::string, std::string, std::string>;
     std::map<Against, std::size_t> places;
     std::vector<Rows> out;
     for (const auto& row : measured.rows) {
         if (!row.shown()) continue;
-        const auto [place, fresh] = places.emplace(Against{row.sweep, row.dataset, row.split}, out.size());
+        const auto [place, fresh] = places.emplace(against(row), out.size());
         if (fresh) out.emplace_back();
         out[place->second].push_back(&row);
     }
@@ -60,7 +81,8 @@ PaperTable empty_table(const Rows& rows, std::size_t number) {
     PaperTable out;
     out.id = fmt::format("rows{}", number);
     out.title = fmt::format("Rows on {}", rows[0]->dataset);
-    out.caption = fmt::format("All that was scored, split {}", rows[0]->split);
+    out.caption = fmt::format("All that was scored by one recogniser, split {}{}", rows[0]->split,
+                              in_windows(window_of(*rows[0])));
     out.source = fmt::format(
         "Sweep {}: means and their 95 % intervals, over seeds where several were trained", rows[0]->sweep);
     out.columns = {{rows[0]->dataset, metrics_of(rows)}};

@@ -291,7 +291,7 @@ class Planner {
         for (const auto& made : {data, recogniser, single, made_with}) need(job, made);
         if (!row.motions.empty()) {
             for (const auto& motions : row.motions) work.motions.push_back(with_contents(motions, job));
-            run.motions = work.motions.back();
+            run.motions = work.motions.front();  // as the features that are kept
         }
         job.amount = static_cast<double>(row.repeats * row.per_class);
         job.pace = 10;  // of each of some tens of classes

@@ -98,7 +98,7 @@ const body = (() => {
     const beyond = lengthsBeyond(tree, lengths), reach = beyond[tree.order[0]] || 1;
     const radius = (j) => {
       const limb = reach * (THIN + THICK * Math.min(1, beyond[j] / (0.62 * reach)));
-      return trunk.has(j) ? TRUNK * reach : tree.sides[j] === MIDDLE ? Math.max(NECK * reach, Math.min(limb, NECK * reach)) : limb;
+      return trunk.has(j) ? TRUNK * reach : tree.sides[j] === MIDDLE ? NECK * reach : limb;
     };
     return solids.flatMap(({ a, b, ball }) => {
       if (ball) return [HEAD * reach, HEAD * reach];

@@ -41,7 +41,7 @@ const data = (() => {
   }
   const motionOf = remembered(decodeMotion), pointsOf = remembered(decodePoints);
 
-  /** One motion of each of the first `most` actions that have any, so that columns show an action each. */
+  /** One motion of each action that has any, so that columns show an action each. */
   function oneEach(motions, actions) {
     return actions.map((action) => motions.find((m) => m.label === action)).filter(Boolean);
   }

@@ -143,10 +143,13 @@ TEST_F(Report, RowsThatWereScoredAgainstTheSameMotionsStandSideBySide) {
     add("full", "table3/full/NTU-1P", {with(scores({0.59, 0.61}, {3.1, 2.9}), 1.5)});
     add("mine", "", {with(scores({0.4, 0.41}, {9, 9.1}), 0.9)})["fills"] = Json::array();
     add("elsewhere", "", {scores({0.4}, {9})})["dataset"] = "two";
+    auto by_another = scores({0.99, 0.98}, {0.1, 0.11});
+    by_another["provenance"] = {{"recogniser", {{"checksum", "other"}}}};
+    add("by another recogniser", "", {by_another});
     add("not run", "", {})["status"] = "waiting";
     const auto measured = read();
     const RowTables tables(measured);
-    ASSERT_EQ(tables.filled().size(), 2U);
+    ASSERT_EQ(tables.filled().size(), 3U);
     const auto& one = tables.filled()[0];
     ASSERT_EQ(one.paper->columns[0].metrics.size(), 3U) << "accuracy, FIDm and acceleration";
     ASSERT_EQ(one.rows.size(), 3U) << "two rows and real motions";
