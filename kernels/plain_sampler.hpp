@@ -16,6 +16,8 @@ struct ClassTable {
     std::vector<std::uint64_t> edge;  ///< (classes that have any) running sum of their weights
 };
 
+ClassTable class_table(const ClipTable& table, ClassSampling how);
+
 /// What a window shows: a clip from a frame on, its persons in an order of four bits each.
 struct DrawnWindow {
     static constexpr std::uint64_t own_order = 0xFEDCBA9876543210;

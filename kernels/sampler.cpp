@@ -144,20 +144,26 @@ std::uint64_t class_weight(std::uint64_t clips, ClassSampling how) {
     return how == ClassSampling::plain ? clips << 16 : integer_root(clips << 32);
 }
 
-Sampler::Sampler(const ClipStore& clips, const SamplerOptions& options) : clips_(&clips), options_(options) {
+ClassTable class_table(const ClipTable& table, ClassSampling how) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> members;
-    for (std::size_t c = 0; c < clips.table().clips(); ++c)
-        members[clips.table().labels[c]].push_back(static_cast<std::uint32_t>(c));
-    auto& [by_class, first, edge] = classes_;
+    for (std::size_t c = 0; c < table.clips(); ++c)
+        members[table.labels[c]].push_back(static_cast<std::uint32_t>(c));
+    ClassTable classes;
+    auto& [by_class, first, edge] = classes;
     for (const auto& [label, of_class] : members) {
         by_class.insert(by_class.end(), of_class.begin(), of_class.end());
         first.push_back(static_cast<std::uint32_t>(by_class.size()));
-        edge.push_back((edge.empty() ? 0 : edge.back()) + class_weight(of_class.size(), options.classes));
+        edge.push_back((edge.empty() ? 0 : edge.back()) + class_weight(of_class.size(), how));
     }
+    return classes;
+}
+
+Sampler::Sampler(const ClipStore& clips, const SamplerOptions& options)
+    : clips_(&clips), options_(options), classes_(class_table(clips.table(), options.classes)) {
     if (!clips.on_device()) return;
-    by_class_ = Buffer<std::uint32_t>(clips.device(), by_class);
-    class_first_ = Buffer<std::uint32_t>(clips.device(), first);
-    class_edge_ = Buffer<std::uint64_t>(clips.device(), edge);
+    by_class_ = Buffer<std::uint32_t>(clips.device(), classes_.by_class);
+    class_first_ = Buffer<std::uint32_t>(clips.device(), classes_.first);
+    class_edge_ = Buffer<std::uint64_t>(clips.device(), classes_.edge);
 }
 
 void Sampler::draw(std::uint64_t index, Batch& into) const {

@@ -129,14 +129,6 @@ void normal_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t 
     }
 }
 
-void whole_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t samples, std::uint32_t bound,
-                   std::int64_t* values) {
-    for (std::int64_t s = 0; s < samples; ++s) {
-        const auto words = random_words(place, first + static_cast<std::uint64_t>(s), 0);
-        values[s] = static_cast<std::int64_t>(std::uint64_t{words[0]} * bound >> 32);
-    }
-}
-
 void correlate(const float* normals, const float* factors, std::int64_t draws, std::int64_t frames,
                std::int64_t channels, bool triangular, float* to, int threads) {
     constexpr std::int64_t side_by_side = 4;  // draws that share what is read of the factors

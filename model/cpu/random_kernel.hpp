@@ -22,10 +22,6 @@ PhiloxWords random_words(const RandomPlace& place, std::uint64_t sample, std::ui
 void normal_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t samples, std::int64_t count,
                     float* values, int threads);
 
-/// values (samples): whole numbers below `bound`.
-void whole_numbers(const RandomPlace& place, std::uint64_t first, std::int64_t samples, std::uint32_t bound,
-                   std::int64_t* values);
-
 /// Dropout (Srivastava et al. 2014) of a layer's numbers: a share `rate` becomes 0, the others grow so that the mean stays.
 struct Dropout {
     double rate = 0;  ///< in steps of 2^-16

@@ -203,7 +203,8 @@ at::Tensor ActFormerGenerator::poses(const at::Tensor& x) const {
 }
 
 /// The EMA's singular vectors are close to those of the last weights: a few power iterations from there find them.
-void ActFormerGenerator::recompute_buffers(const Prior& /*prior*/, std::int64_t /*frames*/) {
+void ActFormerGenerator::recompute_buffers(const Prior& /*prior*/, const at::Tensor& /*labels*/,
+                                           std::int64_t /*frames*/) {
     for (const auto& weight : actformer_generator_weights(settings_))
         for (int i = 0; weight.spectral && i < 10; ++i) weights_.normalised(weight.name, true);
 }

@@ -23,7 +23,7 @@ class ActFormerGenerator : public GanGenerator {
                         std::int64_t /*frames*/) override {
         return forward(latent, labels);
     }
-    void recompute_buffers(const Prior& prior, std::int64_t frames) override;
+    void recompute_buffers(const Prior& prior, const at::Tensor& labels, std::int64_t frames) override;
 
     const ActFormerGeneratorSettings& settings() const { return settings_; }
     const WeightStore& weights() const { return weights_; }

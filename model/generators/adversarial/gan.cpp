@@ -131,12 +131,12 @@ void Gan::step_generator(const at::Tensor& real, const at::Tensor& labels, std::
         ema_parameters_->follow(generator_parameters_, settings_.average, generator_adam_.steps);
 }
 
-GanGenerator& Gan::ema() {
+GanGenerator& Gan::ema(const at::Tensor& labels) {
     if (!networks_.ema) return generator();
     const at::NoGradGuard no_gradients;
     const auto from = generator().named_buffers();
     for (auto& item : networks_.ema->named_buffers()) item.value().copy_(from[item.key()]);
-    networks_.ema->recompute_buffers(prior_, settings_.frames);
+    networks_.ema->recompute_buffers(prior_, labels, settings_.frames);
     return *networks_.ema;
 }
 

@@ -39,8 +39,9 @@ class Gan {
 
     GanGenerator& generator() { return *networks_.generator; }
 
-    /// The generator with the EMA of its weights; the generator itself where none is kept.
-    GanGenerator& ema();
+    /// The generator with the EMA of its weights, its buffers those of motions of `labels` (N) int64; the generator itself where no
+    /// EMA is kept.
+    GanGenerator& ema(const at::Tensor& labels);
 
     bool finite();  ///< every weight of both networks
 

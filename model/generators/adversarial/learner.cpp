@@ -17,6 +17,19 @@ kernels::SamplerOptions sampling(const Config& config, const Place& place) {
             true, static_cast<std::uint32_t>(place.rank) * batch_of(config)};
 }
 
+/// (N) int64: classes as the training draws them, of a batch that it never comes to. Those without a clip are never trained.
+at::Tensor drawn_labels(const kernels::ClipTable& clips, const Config& config) {
+    constexpr std::uint32_t count = 1024;
+    constexpr std::uint64_t batch = std::uint64_t{1} << 55U;
+    const auto options = sampling(config, {});
+    const auto classes = kernels::class_table(clips, options.classes);
+    const auto labels = at::empty({count}, at::kLong);
+    auto* to = labels.data_ptr<std::int64_t>();
+    for (std::uint32_t i = 0; i < count; ++i)
+        to[i] = clips.labels[kernels::drawn(clips, classes, options, batch, i, 1).clip];
+    return labels;
+}
+
 }  // namespace
 
 GanLearner::GanLearner(const Config& config, const MotionSpec& spec, GanNetworks networks,
@@ -28,7 +41,8 @@ GanLearner::GanLearner(const Config& config, const MotionSpec& spec, GanNetworks
       device_(setup.device),
       feed_(setup.clips, sampling(config, setup.processes.place()), batch_, settings_.frames),
       gan_(settings_, std::move(networks), setup.device, setup.processes,
-           Augmentation(settings_, spec.representation, spec.topology, spec.where)) {}
+           Augmentation(settings_, spec.representation, spec.topology, spec.where)),
+      ema_labels_(drawn_labels(setup.clips.table(), config)) {}
 
 std::uint64_t GanLearner::windows_a_step() const {
     return std::uint64_t{batch_} * settings_.discriminator_steps;
@@ -66,7 +80,7 @@ std::vector<Array> GanLearner::weights() {
 }
 
 std::vector<Array> GanLearner::ema_weights() {
-    return arrays_of(gan_.ema(), "");
+    return arrays_of(gan_.ema(ema_labels_), "");
 }
 
 std::vector<Phase> GanLearner::phases() {

@@ -39,6 +39,7 @@ class GanLearner : public Learner {
     at::Device device_;
     RandomFeed feed_;
     Gan gan_;
+    at::Tensor ema_labels_;  ///< (N) int64, of the motions by which the EMA's buffers are found
 };
 
 }  // namespace actformer::model

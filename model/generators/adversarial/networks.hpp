@@ -25,8 +25,8 @@ class GanGenerator : public torch::nn::Module {
 
     /// Estimates anew the buffers that depend on the weights, once these have become an EMA's and the buffers are still the trained
     /// network's: singular vectors of spectral norms by power iteration, statistics of batch normalisation from motions of `frames`
-    /// frames that it generates from `prior`.
-    virtual void recompute_buffers(const Prior& prior, std::int64_t frames) = 0;
+    /// frames that it generates from `prior`, one for each of `labels` (N) int64.
+    virtual void recompute_buffers(const Prior& prior, const at::Tensor& labels, std::int64_t frames) = 0;
 };
 
 class GanDiscriminator : public torch::nn::Module {

@@ -12,7 +12,7 @@ namespace {
 /// Added to the diagonal of covariances of rank far below their size, so that they have a factor in double.
 constexpr double jitter = 1e-6;
 
-constexpr std::uint8_t for_latents = 1, for_labels = 2;
+constexpr std::uint8_t for_latents = 1;
 
 at::Tensor exact_covariance(const PriorSettings& settings, std::int64_t channel, std::int64_t frames) {
     const double length = settings.length_scale * static_cast<double>(channel + 1) / settings.channels;
@@ -71,14 +71,6 @@ at::Tensor Prior::correlated(const at::Tensor& normals) const {
                    frames, channels, settings_.root == PriorRoot::triangular, latent.data_ptr<float>(),
                    at::get_num_threads());
     return latent;
-}
-
-at::Tensor Prior::labels(std::uint64_t index, std::int64_t count, std::int64_t classes,
-                         std::uint64_t first_sample) const {
-    auto labels = at::empty({count}, at::kLong);
-    cpu::whole_numbers({seed_, index, for_labels}, first_sample, count, static_cast<std::uint32_t>(classes),
-                       labels.data_ptr<std::int64_t>());
-    return labels;
 }
 
 }  // namespace actformer::model

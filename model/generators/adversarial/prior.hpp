@@ -27,10 +27,6 @@ class Prior {
     /// What a draw makes of normal numbers (count, streams, frames, channels): Gaussian processes over the frames.
     at::Tensor correlated(const at::Tensor& normals) const;
 
-    /// Labels (count) int64, every class as likely, by the same rules.
-    at::Tensor labels(std::uint64_t index, std::int64_t count, std::int64_t classes,
-                      std::uint64_t first_sample = 0) const;
-
     /// The covariance of channel `channel` over `frames` frames, (frames, frames) in double.
     static at::Tensor covariance(const PriorSettings& settings, std::int64_t channel, std::int64_t frames);
 

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double linear = 1;  ///< as LeakyReLU's slope
 
-/// Latents by which the EMA's running statistics are found: batches, motions of each, and where the prior's draws of a training
-/// never come to.
-constexpr std::int64_t batches = 16, motions_a_batch = 64;
+/// Motions of a batch by which the EMA's running statistics are found, and the first draw of their latents: a training's never come
+/// to it.
+constexpr std::int64_t motions_a_batch = 64;
 constexpr std::uint64_t first_draw = std::uint64_t{1} << 55U;
 
 }  // namespace
@@ -80,17 +80,17 @@ at::Tensor CsgnGenerator::generate(const at::Tensor& latent, const at::Tensor& l
     return motions(x, frames, fused);
 }
 
-void CsgnGenerator::recompute_buffers(const Prior& prior, std::int64_t frames) {
+void CsgnGenerator::recompute_buffers(const Prior& prior, const at::Tensor& labels, std::int64_t frames) {
     const at::NoGradGuard no_gradients;
     const bool training = is_training();
     const double momentum = momentum_;
     const auto device = parameters().front().device();
     train();
-    for (std::int64_t i = 0; i < batches; ++i) {
-        const auto draw = first_draw + static_cast<std::uint64_t>(i);
-        momentum_ = 1 / static_cast<double>(i + 1);  // of equal weight all
-        generate(prior.draw(draw, motions_a_batch, latent_frames(frames)).to(device),
-                 prior.labels(draw, motions_a_batch, settings_.classes).to(device), frames);
+    std::uint64_t batches = 0;
+    for (const auto& batch : labels.split(motions_a_batch)) {
+        const auto latent = prior.draw(first_draw + batches, batch.size(0), latent_frames(frames));
+        momentum_ = 1 / static_cast<double>(++batches);  // of equal weight all
+        generate(latent.to(device), batch.to(device), frames);
     }
     momentum_ = momentum;
     train(training);

@@ -23,8 +23,8 @@ class CsgnGenerator : public GanGenerator {
     /// training mode batch norms take the batch's statistics and move the running ones, else they take the running ones.
     at::Tensor generate(const at::Tensor& latent, const at::Tensor& labels, std::int64_t frames) override;
 
-    /// Running statistics of the EMA's own weights: means over batches of motions of random classes.
-    void recompute_buffers(const Prior& prior, std::int64_t frames) override;
+    /// Running statistics of the EMA's own weights: means over batches of motions.
+    void recompute_buffers(const Prior& prior, const at::Tensor& labels, std::int64_t frames) override;
 
     const CsgnSettings& settings() const { return settings_; }
 

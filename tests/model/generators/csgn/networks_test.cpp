@@ -176,17 +176,18 @@ TEST_F(CsgnNetworks, RunningStatisticsOfAnEmaAreItsOwn) {
     CsgnGenerator network(s, 1);
     stir(network);
     const Prior prior(s.prior(), 3);
-    network.recompute_buffers(prior, 20);
+    const auto labels = some_labels(1024);
+    network.recompute_buffers(prior, labels, 20);
     // Statistics over many batches more, moved slowly: those of the same weights.
     const at::NoGradGuard no_gradients;
     const auto found = network.named_buffers()["norm0.variance"].clone();
-    for (std::uint64_t i = 0; i < 40; ++i) network.generate(prior.draw(i, 64, 2), prior.labels(i, 64, 5), 20);
+    for (std::uint64_t i = 0; i < 40; ++i) network.generate(prior.draw(i, 64, 2), some_labels(64), 20);
     const auto moved = network.named_buffers()["norm0.variance"];
     EXPECT_LT(((found - moved).abs() / moved).mean().item<double>(), 0.1);
     EXPECT_GT((moved - 1).abs().mean().item<double>(), 0.1) << "they start at 1";
     CsgnGenerator other(s, 1);
     copy_all(network, other);
-    other.recompute_buffers(prior, 20);
+    other.recompute_buffers(prior, labels, 20);
     EXPECT_TRUE(found.equal(other.named_buffers()["norm0.variance"])) << "whatever they were before";
 }
 
