@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"
+#include "ingest/export/foreign.hpp"
 #include "model/generators/import_generator.hpp"
 #include "model/recognisers/import_recogniser.hpp"
 
@@ -25,9 +26,20 @@ void print(bool json, const std::string& file, const std::string& what, std::uin
             classes == 1 ? "1 class" : fmt::format("{} classes", classes));
 }
 
+template <typename Request>
+struct ImportOptions {
+    Request request;
+    bool force = false, json = false;
+
+    void refuse_foreign() const {
+        if (!force) ingest::refuse_foreign_weights(request.out);
+    }
+};
+
 /// Options that both have.
 template <typename Request>
-void add_files(CLI::App* command, Request& request, bool& json) {
+void add_files(CLI::App* command, ImportOptions<Request>& options) {
+    auto& request = options.request;
     command
         ->add_option("file", request.file,
                      "A state_dict, or a dict that holds state_dicts, saved by torch.save")
@@ -40,17 +52,14 @@ void add_files(CLI::App* command, Request& request, bool& json) {
         ->required()
         ->type_name("DATASET");
     command->add_option("-o,--out", request.out, "HDF5 file to make")->required()->type_name("WEIGHTS.h5");
-    command->add_flag("--json", json, "Print the result as JSON");
+    command->add_flag("--force", options.force, "Replace a file that holds no imported weights");
+    command->add_flag("--json", options.json, "Print the result as JSON");
 }
 
 void add_import_generator(CLI::App& parent) {
-    struct Options {
-        model::ImportGeneratorRequest request;
-        bool json = false;
-    };
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ImportOptions<model::ImportGeneratorRequest>>();
     auto* command = parent.add_subcommand("generator", "A released checkpoint of ACTOR or Action2Motion");
-    add_files(command, options->request, options->json);
+    add_files(command, *options);
     command->add_option("overrides", options->request.overrides, "Settings that the checkpoint does not tell")
         ->type_name("KEY=VALUE");
     examples(command,
@@ -61,23 +70,21 @@ void add_import_generator(CLI::App& parent) {
              "ingested with "
              "--published.\n");
     command->callback([options] {
+        options->refuse_foreign();
         const auto made = model::import_generator(options->request);
         print(options->json, options->request.out.string(), made.method, made.numbers, made.classes);
     });
 }
 
 void add_import_recogniser(CLI::App& parent) {
-    struct Options {
-        model::ImportRecogniserRequest request;
-        bool json = false;
-    };
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ImportOptions<model::ImportRecogniserRequest>>();
     auto* command = parent.add_subcommand("recogniser", "An ST-GCN, or Action2Motion's GRU classifier");
-    add_files(command, options->request, options->json);
+    add_files(command, *options);
     examples(command,
              "  actformer import recogniser humanact12_gru.tar --data humanact12 -o gru.h5\n"
              "  actformer features --recogniser gru.h5 humanact12 -o features.h5\n");
     command->callback([options] {
+        options->refuse_foreign();
         const auto made = model::import_recogniser(options->request);
         print(options->json, options->request.out.string(), made.kind, made.numbers, made.classes);
     });

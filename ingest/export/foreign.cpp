@@ -19,17 +19,33 @@ bool names_this_program(std::string_view program) {
            program[name.size()] <= '9';
 }
 
+bool is_of_this_program(const hdf5::Reader& file) {
+    if (!file.has_attribute("program")) return false;
+    const auto program = file.attribute_texts("program");
+    return program.size() == 1 && names_this_program(program[0]);
+}
+
 /// Datasets' shards and networks' weights name the program too, and hold no motions of (P*C, K, T).
 bool is_own_hdf5(const fs::path& path) {
     const hdf5::Reader file(path);
-    if (!file.has_attribute("program") || !file.has_attribute("representation") ||
-        file.has_attribute("dataset") || file.has_attribute("kind"))
+    if (!is_of_this_program(file) || !file.has_attribute("representation") || file.has_attribute("dataset") ||
+        file.has_attribute("kind"))
         return false;
     const auto names = file.names();
-    const auto program = file.attribute_texts("program");
-    return program.size() == 1 && names_this_program(program[0]) &&
-           std::ranges::all_of(
-               names, [&](const auto& name) { return file.is_array(name) && file.shape(name).size() == 3; });
+    return std::ranges::all_of(
+        names, [&](const auto& name) { return file.is_array(name) && file.shape(name).size() == 3; });
+}
+
+bool is_hdf5(std::string_view bytes) {
+    return bytes.starts_with("\x89HDF");
+}
+
+bool is_imported(const fs::path& path) try {
+    if (!is_hdf5(MappedFile(path).text())) return false;
+    const hdf5::Reader file(path);
+    return is_of_this_program(file) && file.has_attribute("imported");
+} catch (const Error&) {
+    return false;
 }
 
 bool is_own(const fs::path& path) try {
@@ -48,19 +64,30 @@ bool is_own(const fs::path& path) try {
         const auto at = bytes.substr(0, head).find(key);
         return at != bytes.npos && names_this_program(bytes.substr(at + key.size()));
     }
-    return bytes.starts_with("\x89HDF") && is_own_hdf5(path);
+    return is_hdf5(bytes) && is_own_hdf5(path);
 } catch (const Error&) {
     return false;
+}
+
+bool holds_something(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) > 0;
+}
+
+[[noreturn]] void refuse(const fs::path& path, const char* why) {
+    throw Error("{}: is there, and {}; choose another name, or replace it with --force", path.string(), why);
 }
 
 }  // namespace
 
 void refuse_foreign(const fs::path& path) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored) || fs::file_size(path, ignored) == 0 || is_own(path)) return;
-    throw Error("{}: is there, and {}; choose another name, or replace it with --force", path.string(),
-                path.extension() == ".bvh" ? "a .bvh does not tell whether this program wrote it"
-                                           : "holds no motions that this program wrote");
+    if (holds_something(path) && !is_own(path))
+        refuse(path, path.extension() == ".bvh" ? "a .bvh does not tell whether this program wrote it"
+                                                : "holds no motions that this program wrote");
+}
+
+void refuse_foreign_weights(const fs::path& path) {
+    if (holds_something(path) && !is_imported(path)) refuse(path, "holds no weights that import wrote");
 }
 
 }  // namespace actformer::ingest

@@ -9,4 +9,7 @@ namespace actformer::ingest {
 /// who wrote them; a .bvh does not.
 void refuse_foreign(const std::filesystem::path& path);
 
+/// The same of a file that holds no weights that `import` wrote.
+void refuse_foreign_weights(const std::filesystem::path& path);
+
 }  // namespace actformer::ingest

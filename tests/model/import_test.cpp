@@ -186,6 +186,22 @@ TEST_F(Import, Action2MotionGenerates) {
     EXPECT_EQ(made.exit, 0) << made.output;
 }
 
+TEST_F(Import, ReplacesWhatItImportedAndNothingElse) {
+    for (const auto& [what, file] : {std::pair{"generator", "actor.pt"}, {"recogniser", "gru.tar"}}) {
+        const auto import = [&](const std::string& out, const std::string& more = "") {
+            return run_actformer(fmt::format("import {} {} --data {} -o {} {}", what, at(file),
+                                             toy().string(), at(out), more));
+        };
+        const auto before = read_file(at(file));
+        expect_refused(import(file), {file, "is there", "--force"});
+        EXPECT_TRUE(read_file(at(file)) == before) << "its own input is as it was";
+        expect_refused(import("stgcn.h5"), {"stgcn.h5", "holds no weights that import wrote", "--force"});
+        write_file(at("foreign.h5"), "someone's");
+        EXPECT_EQ(import("foreign.h5", "--force").exit, 0);
+        EXPECT_EQ(import("foreign.h5").exit, 0) << "imported weights, now";
+    }
+}
+
 TEST_F(Import, RecognisersKeepTheirNumbers) {
     for (const auto& [file, numbers, kind] :
          {std::tuple{"gru.tar", "gru.h5", "gru"}, {"stgcn.pt", "stgcn.h5", "stgcn"}}) {
