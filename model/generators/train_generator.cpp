@@ -44,7 +44,7 @@ TrainingResult train_here(const Config& config, const std::filesystem::path& run
         tell_split(dataset, settings, clips.table().clips(),
                    learner->windows_a_step() * static_cast<std::uint64_t>(place.size),
                    settings.recogniser.empty()
-                       ? "no recogniser scores it, so no accuracy and no weights-best.h5 (recogniser=RUN "
+                       ? "no recogniser scores it, so no accuracy and no new weights-best.h5 (recogniser=RUN "
                          "names one)"
                        : fmt::format("scored against split {}", settings.train_split),
                    events.note);

@@ -138,6 +138,9 @@ void Loop::resume() {
         if (!validations_.take_from(state, epoch() < settings_.epochs))
             say("the scores so far are of another recogniser or of other numbers of motions: the best "
                 "weights are chosen from now on");
+        else if (!validations_.scores() && validations_.best())
+            say(fmt::format("weights-best.h5 is of epoch {} and stays: nothing scores later ones",
+                            validations_.best()->epoch));
         if (epoch() > settings_.epochs)
             say(fmt::format("{} epochs are done, more than epochs={}: nothing is left to train", epoch(),
                             settings_.epochs));

@@ -35,8 +35,8 @@ void Validations::add_to(Json& state) const {
 }
 
 bool Validations::take_from(const Json& state, bool goes_on) {
-    if (!validator_ || !state.contains("best")) return true;
-    if (goes_on && !is_fingerprint_of(*validator_, state.at("scorer"))) return false;
+    if (!state.contains("best")) return true;
+    if (validator_ && goes_on && !is_fingerprint_of(*validator_, state.at("scorer"))) return false;
     best_ = report_from(state.at("best"));
     best_->best = true;
     best_scorer_ = state.at("scorer");

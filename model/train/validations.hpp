@@ -19,9 +19,11 @@ class Validations {
     /// What a checkpoint's state keeps.
     void add_to(nlohmann::ordered_json& state) const;
 
-    /// Takes it back. False where the training goes on with another validator, whose scores are not to be compared with those so far.
+    /// Takes it back, without a validator too: the folder's best weights are still those. False where the training goes on with another
+    /// validator, whose scores are not to be compared with those so far.
     bool take_from(const nlohmann::ordered_json& state, bool goes_on);
 
+    bool scores() const { return validator_ != nullptr; }
     bool due(std::uint64_t epoch, bool last) const { return validator_ && validator_->due(epoch, last); }
     bool in_background() const { return validator_ && validator_->in_background(); }
     void begin(std::uint64_t epoch, std::uint64_t step) { validator_->begin(epoch, step); }

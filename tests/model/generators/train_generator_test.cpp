@@ -203,6 +203,21 @@ TEST_F(TrainGenerator, BestWeightsAreThoseOfScoresAlike) {
     EXPECT_EQ(best_step("epochs=4 score_per_class=8"), 8) << "scores of fewer motions are others";
 }
 
+TEST_F(TrainGenerator, BestWeightsOutliveEpochsThatNothingScores) {
+    const auto scored = "score_every=1 score_per_class=4 " + recogniser() + " ";
+    ASSERT_EQ(train("run", scored + "epochs=1").exit, 0);
+    const auto state = [&] {
+        return model::newest_checkpoint(dir / "run", "actformer", [](const std::string&) {})->state;
+    };
+    const auto before = state();
+    const auto unscored = train("run", "epochs=2");
+    ASSERT_EQ(unscored.exit, 0) << unscored.output;
+    for (const auto* line : {"weights-best.h5 is of epoch 1 and stays: nothing scores later ones\n",
+                             "weights-best.h5: after epoch 1: "})
+        EXPECT_NE(unscored.output.find(line), std::string::npos) << unscored.output;
+    for (const auto* key : {"best", "last", "scorer"}) EXPECT_EQ(state().at(key), before.at(key)) << key;
+}
+
 TEST_F(TrainGenerator, TwoProcessesAreOneWithTwiceTheBatch) {
     const auto port = std::to_string(20000 + ::getpid() % 20000);
     const auto of = [&](int rank) {
@@ -239,7 +254,7 @@ TEST_F(TrainGenerator, SaysWhatItTrainsOn) {
     ASSERT_EQ(result.exit, 0) << result.output;
     EXPECT_NE(
         result.output.find("trains on split s/train: 36 clips, 40 windows an epoch; no recogniser scores "
-                           "it, so no accuracy and no weights-best.h5 (recogniser=RUN names one)\n"),
+                           "it, so no accuracy and no new weights-best.h5 (recogniser=RUN names one)\n"),
         std::string::npos)
         << result.output;
 }
