@@ -27,7 +27,7 @@ GeneratorValidator::GeneratorValidator(const Config& config, const MotionSpec& s
       learner_(learner),
       frames_(static_cast<std::uint32_t>(config.get<std::int64_t>("frames"))),
       classes_(classes_of(clips)),
-      metrics_(settings_.recogniser, settings_.opencl, dataset, clips, frames_) {}
+      metrics_(settings_.recogniser, settings_.opencl, dataset, settings_.train_split, clips, frames_) {}
 
 /// FIDs fall as motions grow more.
 std::string GeneratorValidator::fingerprint() const {

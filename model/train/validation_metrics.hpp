@@ -28,9 +28,10 @@ struct ValidationScores {
 class ValidationMetrics {
   public:
     /// `recogniser`: weights, or the folder of a training (see eval::weights_of). Takes features of every consecutive window of
-    /// `clips`, a split of `dataset`. Throws Error where the recogniser does not fit the dataset.
+    /// `clips`, which are split `split` of `dataset`; where the recogniser sees common joints, the split is read again in those. Throws Error where the recogniser does not fit the dataset.
     ValidationMetrics(const std::filesystem::path& recogniser, const std::string& opencl,
-                      const ingest::Dataset& dataset, const kernels::ClipStore& clips, std::uint32_t frames);
+                      const ingest::Dataset& dataset, const std::string& split,
+                      const kernels::ClipStore& clips, std::uint32_t frames);
     ~ValidationMetrics();
 
     double real_accuracy() const;  ///< of the real windows

@@ -218,6 +218,16 @@ TEST_F(TrainGenerator, BestWeightsOutliveEpochsThatNothingScores) {
     for (const auto* key : {"best", "last", "scorer"}) EXPECT_EQ(state().at(key), before.at(key)) << key;
 }
 
+TEST_F(TrainGenerator, ARecogniserOfTheCommonJointsScores) {
+    const auto graph = eval::recogniser_graph(ingest::common15().parents);
+    eval::write_stgcn_weights(dir / "common.h5", eval::random_stgcn_weights(6, 26, graph, 0.125, 5));
+    const auto result = run_actformer(
+        "train generator -c " + at("toy.yaml") + " --data " + toy_pairs().string() + " -o " + at("run") +
+        " epochs=1 train_split=all score_per_class=4 recogniser=" + at("common.h5"));
+    EXPECT_EQ(result.exit, 0) << result.output;
+    EXPECT_TRUE(fs::exists(dir / "run/weights-best.h5")) << result.output;
+}
+
 TEST_F(TrainGenerator, TwoProcessesAreOneWithTwiceTheBatch) {
     const auto port = std::to_string(20000 + ::getpid() % 20000);
     const auto of = [&](int rank) {
