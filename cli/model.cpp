@@ -12,6 +12,7 @@
 #include "cli/shipped_option.hpp"
 #include "eval/recogniser_kind.hpp"
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/view.hpp"
 #include "model/generators/method.hpp"
 #include "model/recognisers/recogniser_settings.hpp"
 
@@ -25,24 +26,19 @@ struct ModelOptions {
 };
 
 /// What networks are made for: a dataset, or NTU's skeleton with the configuration's persons and classes.
-model::MotionSpec spec_of(const std::string& data, std::int64_t persons, std::int64_t classes,
-                          const std::string& config) {
+model::MotionSpec spec_of(const model::Config& config, const ModelOptions& options) {
+    const auto data = options.data.empty() ? config.get<std::string>("data") : options.data;
     if (!data.empty()) {
-        const auto folders = ingest::datasets_at(data);
-        if (folders.size() != 1)
-            throw Error("{}: holds {} datasets; name one, as in {}", data, folders.size(),
-                        folders[0].string());
-        const ingest::Dataset dataset(folders[0]);
-        const auto& header = dataset.header();
-        return {header.representation, header.topology, header.persons,
-                static_cast<std::uint32_t>(header.classes.size()), folders[0].string()};
+        const ingest::Dataset dataset(ingest::one_dataset_at(data));
+        return model::spec_of(ingest::subjects_of(dataset), dataset.folder().string());
     }
+    const auto persons = config.get<std::int64_t>("persons"), classes = config.get<std::int64_t>("classes");
     if (persons == 0 || classes == 0)
         throw Error(
             "{}: leaves persons or classes to the dataset; give --data DATASET, or persons=1 classes=94",
-            config);
+            options.config);
     return {ingest::Representation::limb, ingest::ntu25(), static_cast<std::uint32_t>(persons),
-            static_cast<std::uint32_t>(classes), config};
+            static_cast<std::uint32_t>(classes), options.config};
 }
 
 std::int64_t parameters_of(const model::NetworkSummary& network) {
@@ -50,31 +46,33 @@ std::int64_t parameters_of(const model::NetworkSummary& network) {
                            [](std::int64_t sum, const auto& line) { return sum + line.parameters; });
 }
 
-/// The configuration with its overrides, and what its networks are for.
-std::pair<model::Config, model::MotionSpec> read(model::Config config, const ModelOptions& options) {
+model::Config read(model::Config config, const ModelOptions& options) {
     config.load(options.config);
     for (const auto& assignment : options.overrides) config.override_with(assignment);
-    const auto data = options.data.empty() ? config.get<std::string>("data") : options.data;
-    auto spec = spec_of(data, config.get<std::int64_t>("persons"), config.get<std::int64_t>("classes"),
-                        options.config);
-    return {std::move(config), std::move(spec)};
+    return config;
+}
+
+model::NetworkSummary recogniser_of(const model::Config& config, const model::MotionSpec& spec) {
+    const auto settings = model::recogniser_settings(config);
+    const auto joints = settings.joints_seen();
+    const auto representation = ingest::representation_seen(spec.representation, joints);
+    const auto& topology = ingest::topology_seen(spec.topology, joints);
+    if (settings.kind == model::RecogniserKind::gru)
+        return {"recogniser", model::gru_summary(model::gru_for(settings, representation, topology,
+                                                                spec.persons, spec.classes, spec.where),
+                                                 settings.frames)};
+    const auto network =
+        model::stgcn_for(settings, representation, topology, spec.persons, spec.classes, spec.where);
+    return {"recogniser", model::stgcn_summary(network, settings.frames)};
 }
 
 std::vector<model::NetworkSummary> networks_of(const ModelOptions& options) {
-    const auto kind = eval::recogniser_kind_named(model::model_named_in(options.config));
-    if (!kind) {
-        const auto [config, spec] = read(model::read_generator_config(options.config), options);
-        return model::method_named(config.model(), options.config).networks(config, spec);
+    if (const auto kind = eval::recogniser_kind_named(model::model_named_in(options.config))) {
+        const auto config = read(model::recogniser_config(*kind), options);
+        return {recogniser_of(config, spec_of(config, options))};
     }
-    const auto [config, spec] = read(model::recogniser_config(*kind), options);
-    const auto settings = model::recogniser_settings(config);
-    if (*kind == eval::RecogniserKind::gru)
-        return {{"recogniser", model::gru_summary(model::gru_for(settings, spec.representation, spec.topology,
-                                                                 spec.persons, spec.classes, spec.where),
-                                                  settings.frames)}};
-    const auto network = model::stgcn_for(settings, spec.representation, spec.topology, spec.persons,
-                                          spec.classes, spec.where);
-    return {{"recogniser", model::stgcn_summary(network, settings.frames)}};
+    const auto config = read(model::read_generator_config(options.config), options);
+    return model::method_named(config.model(), options.config).networks(config, spec_of(config, options));
 }
 
 std::string shape_text(const std::vector<std::int64_t>& shape) {

@@ -15,12 +15,20 @@ std::vector<std::size_t> clips_in(const Dataset& dataset, const std::string& spl
     return clips;
 }
 
+Representation representation_seen(Representation own, Joints joints) {
+    return joints == Joints::own ? own : Representation(Representation::limb);
+}
+
+const Topology& topology_seen(const Topology& own, Joints joints) {
+    return joints == Joints::own ? own : common15();
+}
+
 Representation representation_of(const Dataset& dataset, Joints joints) {
-    return joints == Joints::own ? dataset.header().representation : Representation(Representation::limb);
+    return representation_seen(dataset.header().representation, joints);
 }
 
 const Topology& topology_of(const Dataset& dataset, Joints joints) {
-    return joints == Joints::own ? dataset.header().topology : common15();
+    return topology_seen(dataset.header().topology, joints);
 }
 
 namespace {

@@ -19,7 +19,11 @@ struct View {
 /// Indices into dataset.clips() of those in `split`. Throws Error for a split that does not exist or holds no clip.
 std::vector<std::size_t> clips_in(const Dataset& dataset, const std::string& split);
 
-/// How a dataset's motions look to those who are shown `joints` of them.
+/// How motions of a representation and a skeleton look to those who are shown `joints` of them.
+Representation representation_seen(Representation own, Joints joints);
+const Topology& topology_seen(const Topology& own, Joints joints);
+
+/// The same of a dataset's motions.
 Representation representation_of(const Dataset& dataset, Joints joints);
 const Topology& topology_of(const Dataset& dataset, Joints joints);
 

@@ -220,3 +220,19 @@ TEST(ModelCommand, CountsParameters) {
     EXPECT_NE(text.output.find("total"), std::string::npos);
     EXPECT_EQ(run_actformer("model " + source("model/configs/recogniser-small.yaml")).exit, 1);
 }
+
+TEST(ModelCommand, ShowsARecogniserOfTheCommonJoints) {
+    const auto first_output = [](const std::string& more) {
+        const auto printed =
+            run_actformer("model --json " + source("model/configs/recogniser.yaml") + " " + more);
+        EXPECT_EQ(printed.exit, 0) << printed.output;
+        return nlohmann::json::parse(printed.output).at("layers")[0].at("output").dump();
+    };
+    const std::string ntu = "persons=2 classes=26 ", data = "--data " + toy_pairs().string() + " ";
+    for (const auto& subjects : {ntu, data}) {
+        EXPECT_NE(first_output(subjects).find("25"), std::string::npos) << subjects << first_output(subjects);
+        const auto common = first_output(subjects + "joints=common15");
+        EXPECT_NE(common.find("15"), std::string::npos) << subjects << common;
+        EXPECT_EQ(common.find("25"), std::string::npos) << subjects << common;
+    }
+}
