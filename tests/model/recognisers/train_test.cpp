@@ -200,6 +200,14 @@ TEST_F(TrainRecogniser, RefusesWhatCannotBeTrained) {
     EXPECT_FALSE(fs::exists(dir / "r"));
 }
 
+TEST_F(TrainRecogniser, TheConfigurationForAnyDatasetTakesOneWithoutProtocols) {
+    const auto result = run_actformer("train recogniser -c " + source("model/configs/recogniser.yaml") +
+                                      " --data " + toy().string() + " -o " + (dir / "run").string() +
+                                      " width=0.05 frames=16 epochs=1 threads=1");
+    EXPECT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("trains on split all: 48 clips"), std::string::npos) << result.output;
+}
+
 TEST_F(TrainRecogniser, SaysWhichClassesHaveNoClip) {
     const auto result = train("run", "train_split=s/two epochs=1");
     EXPECT_EQ(result.exit, 0) << result.output;
