@@ -1,6 +1,6 @@
 #include "model/generators/generator_settings.hpp"
 
-#include "base/error.hpp"
+#include "model/train/shared_keys.hpp"
 
 namespace actformer::model {
 namespace {
@@ -37,13 +37,11 @@ std::vector<Key> generator_keys() {
 
 void check_subjects(const Config& config, std::uint32_t persons, std::size_t classes,
                     const std::string& where) {
-    const auto wanted_persons = config.get<std::int64_t>("persons"),
-               wanted_classes = config.get<std::int64_t>("classes");
-    if (wanted_persons != 0 && wanted_persons != persons)
-        throw Error("{}: {} person{} a clip, but the configuration says persons: {}", where, persons,
-                    persons == 1 ? "" : "s", wanted_persons);
-    if (wanted_classes != 0 && static_cast<std::size_t>(wanted_classes) != classes)
-        throw Error("{}: {} classes, but the configuration says classes: {}", where, classes, wanted_classes);
+    const auto wanted = [&](const char* key) {
+        return static_cast<std::uint32_t>(config.get<std::int64_t>(key));
+    };
+    check_subject_counts({wanted("persons"), wanted("classes")},
+                         {persons, static_cast<std::uint32_t>(classes)}, where);
 }
 
 GeneratorTrainerSettings generator_trainer_settings(const Config& config) {

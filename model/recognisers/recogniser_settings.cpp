@@ -106,12 +106,8 @@ const RecogniserKeys& gru_table() {
 
 void check_motions(const RecogniserSettings& settings, std::uint32_t persons, std::size_t classes,
                    const std::string& dataset) {
-    if (settings.persons != 0 && settings.persons != persons)
-        throw Error("{}: {} person{} a clip, but the configuration says persons: {}", dataset, persons,
-                    persons == 1 ? "" : "s", settings.persons);
-    if (settings.classes != 0 && settings.classes != classes)
-        throw Error("{}: {} classes, but the configuration says classes: {}", dataset, classes,
-                    settings.classes);
+    check_subject_counts({settings.persons, settings.classes}, {persons, static_cast<std::uint32_t>(classes)},
+                         dataset);
     if (classes < 2)
         throw Error("{}: {} class{}; telling classes apart needs at least 2", dataset, classes,
                     classes == 1 ? "" : "es");

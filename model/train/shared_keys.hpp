@@ -1,6 +1,9 @@
 // Keys that several methods and recognisers have, each said once. Knows nothing of torch.
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include "model/train/key_table.hpp"
 
 namespace actformer::model {
@@ -14,6 +17,14 @@ void add_subject_keys(KeyTable<Settings>& table) {
         .add(&Settings::classes,
              {.name = "classes", .meaning = "classes; 0 takes the dataset's", .least = 0, .most = 100000});
 }
+
+struct SubjectCounts {
+    std::uint32_t persons = 0, classes = 0;
+};
+
+/// Throws Error, beginning with `where`, where a configuration wants other numbers than the motions have; 0 takes any.
+void check_subject_counts(const SubjectCounts& wanted, const SubjectCounts& motions,
+                          const std::string& where);
 
 /// `beta1`, `beta2`.
 template <typename Settings>
