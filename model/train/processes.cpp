@@ -106,7 +106,9 @@ Processes::Processes(Place place, const at::Device& device)
         group_->tcp = c10::make_intrusive<c10d::TCPStore>(place_.address, options);
         group_->store = c10::make_intrusive<c10d::PrefixStore>(place_.prefix, group_->tcp);
         group_->work = collective_on(device, group_->store, place_);
-    } catch (const c10::Error& e) {
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& e) {  // of sockets and of Gloo too, which have classes of their own
         throw Error("rank {} of {}: no meeting at {}:{}: {}", place_.rank, place_.size, place_.address,
                     place_.port, one_line(e));
     }

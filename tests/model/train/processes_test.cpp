@@ -1,5 +1,7 @@
 // Processes that train together, here threads that meet as processes do.
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <future>
@@ -47,6 +49,39 @@ TEST(Processes, OneThatEndsIsMissedByTheOtherInALine) {
     } catch (const Error& e) {
         if (std::string(e.what()).find("no Gloo") == std::string::npos) throw;
         GTEST_SKIP() << e.what();
+    }
+}
+
+/// A socket that listens, and its port.
+struct Listener {
+    Listener() : socket(::socket(AF_INET, SOCK_STREAM, 0)) {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        socklen_t size = sizeof(address);
+        auto* any = reinterpret_cast<sockaddr*>(&address);
+        EXPECT_EQ(::bind(socket, any, size), 0);
+        EXPECT_EQ(::listen(socket, 1), 0);
+        EXPECT_EQ(::getsockname(socket, any, &size), 0);
+        port = ntohs(address.sin_port);
+    }
+    ~Listener() { ::close(socket); }
+    int socket;
+    std::uint16_t port = 0;
+};
+
+TEST(Processes, SayInALineWhereTheyCannotMeet) {
+    const Listener other;
+    auto place = place_of_two(0);
+    place.port = other.port;
+    try {
+        const Processes here(place, at::kCPU);
+        FAIL() << "another program listens at that port";
+    } catch (const Error& e) {
+        const std::string said = e.what();
+        if (said.starts_with("--data-parallel")) GTEST_SKIP() << said;
+        EXPECT_TRUE(said.starts_with(fmt::format("rank 0 of 2: no meeting at 127.0.0.1:{}: ", other.port)))
+            << said;
+        EXPECT_EQ(said.find('\n'), std::string::npos) << said;
     }
 }
 
