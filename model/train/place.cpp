@@ -35,7 +35,7 @@ const Launcher& launcher_of(const Variables& variables) {
     for (const auto& launcher : launchers)
         if (variables(launcher.rank) && variables(launcher.size)) return launcher;
     throw Error(
-        "--data-parallel: started by no launcher; as in torchrun --no-python --nproc-per-node 2 actformer "
+        "--data-parallel: started by no launcher; as in torchrun --no_python --nproc_per_node 2 actformer "
         "train generator ... --data-parallel, or with mpirun -n 2, or srun -n 2");
 }
 

@@ -105,7 +105,7 @@ TEST(Place, OfSrunThatSpeaksPmi) {
 }
 
 TEST(Place, OfNobodyOrNonsense) {
-    EXPECT_NE(complaint({}).find("torchrun"), std::string::npos);
+    EXPECT_NE(complaint({}).find("torchrun --no_python --nproc_per_node 2 "), std::string::npos);
     EXPECT_NE(complaint({{"RANK", "0"}}).find("torchrun"), std::string::npos);
     for (const std::string bad : {"-1", "two", "", "99999999999999999999", "1 "})
         EXPECT_NE(complaint({{"RANK", bad}, {"WORLD_SIZE", "2"}}).find("RANK=" + bad), std::string::npos)
