@@ -79,7 +79,7 @@ struct Row {
     std::string name;
     double ours = 0;
     std::optional<double> peer;
-    std::vector<model::LayerTime> layers = {};  ///< of a step or of 100 motions
+    std::vector<model::LayerTime> layers = {};
 };
 
 /// What a peer prints a number for, in its order: of phases the time by the clock, of a whole step and its motions that of processors
@@ -92,11 +92,14 @@ std::vector<Row> rows_of(const BenchTrainOptions& options, const std::vector<mod
         if (!peer.empty()) rows.back().peer = times_shown * peer.at(rows.size() - 1);
     };
     for (const auto& work : times) {
-        if (options.by_phase() && &work == &times.back())
-            add("9,400 motions", work.wall, 94);
-        else
-            add(work.name, work.wall, 1);
+        const bool many = options.by_phase() && &work == &times.back();
+        const double times_shown = many ? 94 : 1;
+        add(many ? "9,400 motions" : work.name, work.wall, times_shown);
         rows.back().layers = work.layers;
+        for (auto& layer : rows.back().layers) {
+            layer.forward *= times_shown;
+            layer.backward *= times_shown;
+        }
         if (!options.by_phase()) add(work.name + ", processors", work.processors, 1);
     }
     return rows;
