@@ -54,7 +54,7 @@ std::vector<std::string> peer_command(const BenchTrainOptions& options,
         {"--classes", sizes.classes},
         {"--frames", sizes.frames},
         {"--batch", sizes.batch},
-        {options.by_phase() ? "--repeats" : "--rounds", options.by_phase() ? 3 : options.rounds}};
+        {options.by_phase() ? "--repeats" : "--rounds", options.rounds}};
     for (const auto& [name, number] : numbers) command.insert(command.end(), {name, std::to_string(number)});
     return command;
 }
@@ -193,7 +193,7 @@ void add_bench_train(CLI::App& bench) {
     command->add_option("--threads", options->request.threads, "Processor threads, the peer's too")
         ->check(CLI::Range(1U, most_threads))
         ->capture_default_str();
-    command->add_option("--rounds", options->rounds, "Runs a turn of which the best counts")
+    command->add_option("--rounds", options->rounds, "Runs a turn of which the best counts, the peer's too")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_option("--peers", options->peers, "Folder of the reference program actformer_speed.py");
