@@ -204,6 +204,7 @@ void add_bench_train(CLI::App& bench) {
         ->add_option("--peer", options->program,
                      "Program that times the method in eager PyTorch, given --peers")
         ->needs("--method")
+        ->needs("--peers")
         ->check(CLI::ExistingFile);
     command->add_option("overrides", options->request.overrides, "The method's settings, as in batch=32")
         ->type_name("KEY=VALUE")

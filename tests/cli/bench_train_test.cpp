@@ -95,6 +95,9 @@ TEST(BenchTrain, ComparesWithWhatThePeerPrintsLast) {
     for (const std::string said : {"1 2", "1 2 3 4", "0 1 2", "-1 1 2", "nan 1 2", "1 2 3x", "banana"})
         EXPECT_NE(bench("echo " + said + "\n", "").exit, 0) << said << ": no three times";
     EXPECT_NE(bench("exit 3\n", "").exit, 0);
+    const auto alone = run_actformer("bench train --method csgn --peer " + path);
+    EXPECT_NE(alone.exit, 0);
+    EXPECT_NE(alone.output.find("--peer requires --peers"), std::string::npos) << alone.output;
 }
 
 TEST(BenchTrain, RefusesAFolderWithoutThePeer) {
