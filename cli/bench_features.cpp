@@ -12,6 +12,8 @@
 #include "base/error.hpp"
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
+#include "base/process/process.hpp"
+#include "base/text/printable.hpp"
 #include "cli/bench.hpp"
 #include "cli/common_options.hpp"
 #include "cli/say.hpp"
@@ -67,12 +69,17 @@ Breakdown time_steps(kernels::Device& device, const eval::StgcnWeights& weights,
     return best;
 }
 
-/// The number that a command prints; none where it fails.
-std::optional<double> ask(const std::vector<std::string>& command,
-                          const std::map<std::string, std::string>& more) {
+/// Of every peer: stgcn_ort.js takes no other number.
+constexpr int peer_threads = 2;
+
+/// The sequences a second that a command prints. Throws Error where it fails or prints none.
+double ask(const std::vector<std::string>& command, const std::map<std::string, std::string>& more) {
     const auto said = output_of(command, more);
+    if (!said) throw Error("{} failed", command_line(command));
     double value = 0;
-    if (!said || std::sscanf(said->c_str(), "%lf", &value) != 1) return {};
+    if (std::sscanf(said->c_str(), "%lf", &value) != 1 || !(value > 0))
+        throw Error("{}: prints {}, where sequences a second are wanted", command_line(command),
+                    in_quotes(*said));
     return value;
 }
 
@@ -93,18 +100,18 @@ class PeerRunner {
         eval::write_stgcn_weights(folder_->path() / "weights.h5", weights);
     }
 
-    /// Sequences a second of each peer at hand, each the best of five by its own clock, two threads.
+    /// Sequences a second of each peer at hand, each the best of five by its own clock.
     void run(Peers& best) {
         if (!folder_) return;
         const auto onnx = folder_->path() / "network.onnx";
-        const bool first = !fs::exists(onnx);
+        const bool runs_onnx = !options_.node_modules.empty();
         std::vector<std::string> torch{options_.python, options_.peers + "/stgcn.py",
                                        "speed",         (folder_->path() / "weights.h5").string(),
                                        "--frames",      std::to_string(options_.frames),
                                        "--batch",       std::to_string(options_.batch)};
-        if (first) torch.insert(torch.end(), {"--onnx", onnx.string()});
-        keep(best.torch, ask(torch, {{"OMP_NUM_THREADS", "2"}}));
-        if (options_.node_modules.empty() || !fs::exists(onnx)) return;
+        if (runs_onnx && !fs::exists(onnx)) torch.insert(torch.end(), {"--onnx", onnx.string()});
+        keep(best.torch, ask(torch, {{"OMP_NUM_THREADS", std::to_string(peer_threads)}}));
+        if (!runs_onnx) return;
         keep(best.onnx, ask({"node", options_.peers + "/stgcn_ort.js", onnx.string(),
                              std::to_string(weights_.channels), std::to_string(options_.frames),
                              std::to_string(weights_.joints()), std::to_string(options_.batch)},
@@ -112,9 +119,7 @@ class PeerRunner {
     }
 
   private:
-    static void keep(std::optional<double>& best, std::optional<double> now) {
-        if (now && (!best || *now > *best)) best = now;
-    }
+    static void keep(std::optional<double>& best, double now) { best = std::max(best.value_or(now), now); }
 
     const BenchFeaturesOptions& options_;
     const eval::StgcnWeights& weights_;
@@ -155,7 +160,8 @@ void print_text(const FeatureTimes& r, const BenchFeaturesOptions& options, cons
         options.batch);
     const auto peer = [&](const char* name, std::optional<double> rate, const char* how) {
         if (rate)
-            say("{:<18} {:>8.1f} sequences/s, ratio {:.2f}\n", name, *rate, r.rate / *rate);
+            say("{:<18} {:>8.1f} sequences/s by {} threads, ratio {:.2f}\n", name, *rate, peer_threads,
+                r.rate / *rate);
         else
             say("{:<18} not measured: {}\n", name, how);
     };
@@ -188,7 +194,9 @@ void print_json(const FeatureTimes& r, const BenchFeaturesOptions& options, cons
                 {"direct_gflops", r.rate * r.direct},
                 {"share_of_peak", r.rate * r.multiplied / r.peak}};
     const auto peer = [&](const char* name, std::optional<double> rate) {
-        if (rate) out["peers"][name] = {{"sequences_a_second", *rate}, {"ratio", r.rate / *rate}};
+        if (rate)
+            out["peers"][name] = {
+                {"sequences_a_second", *rate}, {"threads", peer_threads}, {"ratio", r.rate / *rate}};
     };
     peer("pytorch", r.peers.torch);
     peer("onnxruntime", r.peers.onnx);
@@ -204,10 +212,10 @@ FeatureTimes measure(kernels::Device& device, const eval::StgcnWeights& weights,
     result.multiplied = eval::multiplied_operations(weights, options.frames) * 1e-9;
     PeerRunner peers(options, weights);
     for (int turn = 0; turn < (options.peers.empty() ? 1 : 2); ++turn) {
+        peers.run(result.peers);  // first, as they may have nothing to say
         result.rate = std::max(result.rate, eval::measure_rate(device, weights, tiles, options.batch,
                                                                options.frames, options.rounds));
         result.peak = std::max(result.peak, kernels::measure_peak(device, tiles.vec, options.rounds) * 1e-9);
-        peers.run(result.peers);
     }
     result.steps = time_steps(device, weights, tiles, options);
     return result;
@@ -250,9 +258,12 @@ void add_bench_features(CLI::App& bench) {
         ->capture_default_str();
     command->add_flag("--tune", options->tune,
                       "Find the best tile sizes of this device first, and keep them");
-    command->add_option("--peers", options->peers,
-                        "Folder of the reference programs stgcn.py and stgcn_ort.js");
-    command->add_option("--node-modules", options->node_modules, "Folder that holds onnxruntime-node");
+    command->add_option(
+        "--peers", options->peers,
+        "Folder of the reference programs stgcn.py and stgcn_ort.js, which take two threads each "
+        "whatever the device has");
+    command->add_option("--node-modules", options->node_modules, "Folder that holds onnxruntime-node")
+        ->needs("--peers");
     command->add_option("--python", options->python, "Python that has torch and h5py")->capture_default_str();
     add_device_option(command, options->device);
     command->add_flag("--json", options->json, "Print JSON");
