@@ -13,7 +13,7 @@ std::vector<Option> BabelCommand::list() {
         Option("--published",
                "Resample as the public tools do: a cubic spline through rotation vectors from the first "
                "frame to the last; "
-               "z stays up",
+               "z stays up, while `turn` of a training turns about y",
                "", &babel.published)};
     for (auto& option : babel.rotational.list()) options.push_back(std::move(option));
     return options;
