@@ -160,6 +160,7 @@ void run(SweepOptions options) {
     const auto sweep = reports::read_sweep(options.file);
     const SweepJobs jobs(options.program, options.out);
     auto plan = reports::make_plan(sweep, options.file.parent_path(), jobs);
+    SweepJobs::check_stand_ins(plan.jobs);
     if (options.only.empty() && !options.status) reports::check_splits(options.file, plan, options.out);
     if (options.dry_run) SweepJobs::check_trainings(plan.jobs);
     if (!options.only.empty()) {

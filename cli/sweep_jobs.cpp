@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/error.hpp"
@@ -11,6 +12,7 @@
 #include "base/process/process.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "ingest/synth/stand_in.hpp"
 #include "reports/page/training.hpp"
 #include "reports/sweep/plan.hpp"
 
@@ -142,6 +144,21 @@ reports::SweepEvents told_events(const std::filesystem::path& out) {
                 (folder_of(out, job) / "log.txt").string());
     };
     return events;
+}
+
+void SweepJobs::check_stand_ins(std::vector<Job>& jobs) {
+    std::vector<std::string_view> known{"ntu"};
+    for (const auto& one : ingest::synth::stand_ins()) known.push_back(one.name);
+    for (auto& job : jobs) {
+        const auto* work = std::get_if<IngestWork>(&job.work);
+        if (!work || work->clips == 0 || !job.problem.empty()) continue;
+        if (std::ranges::find(known, work->format) == known.end())
+            job.problem = fmt::format("clips: synth makes no clips of format '{}'; it makes {}", work->format,
+                                      fmt::join(known, ", "));
+        else if (!work->actions.empty() && work->format != known[0])
+            job.problem = fmt::format("actions: clips of format '{}' are of all its actions; leave it out",
+                                      work->format);
+    }
 }
 
 void SweepJobs::check_trainings(std::vector<Job>& jobs) {

@@ -23,6 +23,9 @@ class SweepJobs : public reports::JobRunner {
     /// program was built without training.
     static void check_trainings(std::vector<reports::Job>& jobs);
 
+    /// Synthetic clips that `actformer synth` cannot make become their job's problem.
+    static void check_stand_ins(std::vector<reports::Job>& jobs);
+
   private:
     /// The commands one after another, with all paths put in.
     std::vector<std::vector<std::string>> commands(const reports::Job& job) const;

@@ -137,7 +137,19 @@ void check_format(const Place& place, const Node& where, const std::string& data
                                       fmt::join(known, ", ")));
 }
 
+/// Keys that say nothing of a dataset that is `there` by that key.
+void refuse_beside(const Place& place, const std::string& name, const Entry& entry, const char* there,
+                   std::initializer_list<const char*> keys) {
+    if (!entry.contains(there)) return;
+    for (const char* key : keys)
+        if (const auto found = entry.find(key); found != entry.end())
+            place.fail(found->second, fmt::format("dataset '{}': '{}' says nothing beside '{}'; leave it out",
+                                                  name, key, there));
+}
+
 SweepDataset dataset(const Place& place, const Node& where, const std::string& name, Entry entry) {
+    refuse_beside(place, name, entry, "path", {"format", "arguments", "seed", "actions"});
+    refuse_beside(place, name, entry, "raw", {"seed", "actions"});
     Taker take(place, std::move(entry));
     SweepDataset out;
     take.text("path", out.path);

@@ -236,6 +236,26 @@ TEST_F(Sweep, ADryRunFailsWhereAJobCannotBeDone) {
     EXPECT_FALSE(fs::exists(at("out")));
 }
 
+TEST_F(Sweep, RefusesDatasetsThatCannotBeMade) {
+    const std::string row = "rows:\n  full: {data: d, recogniser: r, weights: g.yaml}\n";
+    const auto with = [&](const std::string& dataset) {
+        write_file(dir / "sweep.yaml", "name: test\ndatasets:\n  d: " + dataset +
+                                           "\nrecognisers:\n  r: {weights: r.yaml}\n" + row);
+        return sweep("--dry-run");
+    };
+    for (const auto& [dataset, why] :
+         {std::pair{"{format: motions, clips: 10}",
+                    "synth makes no clips of format 'motions'; it makes ntu, "},
+          {"{format: babel, clips: 10, actions: 1-3}", "actions: clips of format 'babel'"}}) {
+        const auto result = with(dataset);
+        EXPECT_EQ(result.exit, 1) << dataset;
+        EXPECT_NE(result.output.find(why), std::string::npos) << result.output;
+    }
+    for (const auto& [dataset, why] : {std::pair{"{path: out, seed: 3}", "'seed' says nothing beside 'path'"},
+                                       {"{raw: out, actions: 1-3}", "'actions' says nothing beside 'raw'"}})
+        actformer::test::expect_refused(with(dataset), {"sweep.yaml: line 3", why});
+}
+
 TEST_F(Sweep, GoesOnWhereverItsConfigurationsLie) {
     sweep_file(two_rows);
     ASSERT_EQ(sweep().exit, 0);
@@ -312,9 +332,10 @@ TEST_F(Sweep, ScoresAgainWhereADatasetThatIsThereChanged) {
 
 TEST_F(Sweep, EndsInOneLineWhereItsResultsCannotBeWritten) {
     sweep_file(two_rows);
-    write_file(dir / "actformer", replaced(stand_in, "kind=$1\n",
-                                           "kind=$1\n[ $kind != train ] || { rm -rf $here/out/results.json; "
-                                           "mkdir -p $here/out/results.json/taken; }\n"));
+    write_file(dir / "actformer",
+               replaced(stand_in, "kind=$1\n",
+                        "kind=$1\n[ $kind != train ] || until [ -d $here/out/results.json/taken ]; do "
+                        "rm -rf $here/out/results.json; mkdir -p $here/out/results.json/taken; done\n"));
     for (const char* jobs : {"1", "2", "4"}) {
         const auto result = run_command("timeout 60 " + command("--jobs " + std::string(jobs)));
         EXPECT_EQ(result.exit, 1) << result.output;
