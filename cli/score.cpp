@@ -13,6 +13,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/lock.hpp"
+#include "base/files/output.hpp"
 #include "base/files/scratch.hpp"
 #include "base/files/temporary.hpp"
 #include "base/process/interruption.hpp"
@@ -61,7 +62,7 @@ struct ScoreOptions {
 class WorkFolder {
   public:
     explicit WorkFolder(const fs::path& out) {
-        if (out.empty()) {
+        if (out.empty() || output_at(out).stream) {
             path_ = temporary_.emplace("score").path();
             return;
         }
