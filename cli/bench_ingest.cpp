@@ -214,6 +214,17 @@ void run_motions(const BenchIngestOptions& options) {
             peak_memory_mib());
 }
 
+/// Options of another format, which change nothing in this one.
+void refuse_without_effect(const CLI::App& command, const std::string& format) {
+    const auto refuse = [&](const char* of, std::initializer_list<const char*> options) {
+        refuse_given(command, options, fmt::format("is for {}, not for --format {}", of, format));
+    };
+    if (format != "motions") refuse("--format motions", {"--gigabytes"});
+    if (format != "babel") refuse("--format babel", {"--hours", "--many-hours"});
+    if (format != "ntu") refuse("--format ntu", {"--clips", "--many", "--sample"});
+    if (format == "motions") refuse("--format ntu and babel", {"--peer", "--python"});
+}
+
 void run(const BenchIngestOptions& options) {
     if (options.format == "motions") return run_motions(options);
     if (options.format == "babel")
@@ -285,7 +296,10 @@ void add_bench_ingest(CLI::App& bench) {
              "  actformer bench ingest --many 100000 --sample FOLDER --peer preprocess.py\n"
              "  actformer bench ingest --format motions --gigabytes 4\n"
              "  actformer bench ingest --format babel --many-hours 40\n");
-    command->callback([options] { run(*options); });
+    command->callback([options, command] {
+        refuse_without_effect(*command, options->format);
+        run(*options);
+    });
 }
 
 }  // namespace actformer::cli

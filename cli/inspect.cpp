@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/files/nearest_file.hpp"
 #include "base/hdf5/reader.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
@@ -176,6 +177,8 @@ void add_inspect(CLI::App& app) {
                 print_motions(file);
             return;
         }
+        if (!std::filesystem::exists(options->dataset))
+            throw Error("{}: no such file or folder{}", options->dataset, did_you_mean(options->dataset));
         const auto folders = ingest::datasets_at(options->dataset);
         const auto of_bytes = options->verify ? verify(folders) : std::vector<bool>();
         Json json = Json::array();

@@ -77,7 +77,7 @@ void add_render(CLI::App& app) {
                      "Datasets, motions files in the public layout (.h5), or raw .skeleton files")
         ->required();
     command
-        ->add_option("-o,--output", options->output,
+        ->add_option("-o,--out,--output", options->output,
                      "What to write: .png a contact sheet, .gif or .mp4 moving")
         ->required();
     command->add_option("--clip", options->wanted.clips, "Draw this clip; may be given again")
