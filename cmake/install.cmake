@@ -25,6 +25,14 @@ endif()
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION share/doc/actformer COMPONENT docs)
 install(DIRECTORY docs python DESTINATION share/doc/actformer COMPONENT docs PATTERN __pycache__ EXCLUDE)
 
+# Each package has the licence, the weights' own too.
+foreach(component program=actformer training=actformer-train docs=actformer-doc)
+  string(REPLACE "=" ";" component ${component})
+  list(POP_FRONT component name)
+  install(FILES LICENSE DESTINATION share/doc/${component} RENAME copyright COMPONENT ${name})
+endforeach()
+install(DIRECTORY examples/cmu DESTINATION share/actformer/examples COMPONENT program)
+
 # Man pages and completions, which the program itself writes.
 install(CODE "
   set(program \"${CMAKE_BINARY_DIR}/actformer\")
