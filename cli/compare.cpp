@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "base/error.hpp"
+#include "base/files/full_path.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/process/process.hpp"
 #include "base/process/shipped.hpp"
@@ -62,10 +63,7 @@ std::string why_of(const reports::JobStatus& status) {
 
 /// As much of the end of `path` as tells it from `other`.
 std::string name_beside(const fs::path& path, const fs::path& other) {
-    const auto whole = [](const fs::path& of) {
-        return fs::absolute(of / "").lexically_normal().parent_path();
-    };
-    auto rest = whole(path), against = whole(other);
+    auto rest = full_path(path), against = full_path(other);
     auto name = rest.filename().string();
     if (rest == against) return name;
     while (rest.filename() == against.filename()) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/files/full_path.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/format.hpp"
@@ -112,7 +113,7 @@ void add_own(CLI::App* command, const ingest::Option& option) {
 
 /// The last part of DIR names a format's only dataset.
 std::string dataset_name(const std::filesystem::path& out) {
-    return std::filesystem::absolute(out).lexically_normal().filename().string();
+    return full_path(out).filename().string();
 }
 
 void run(const IngestOptions& options, const ingest::IngestCommand& command) {

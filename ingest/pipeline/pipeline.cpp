@@ -7,6 +7,7 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/full_path.hpp"
 #include "base/process/interruption.hpp"
 #include "base/text/printable.hpp"
 #include "base/threads/parallel.hpp"
@@ -60,7 +61,7 @@ class Ingest {
           threads_(thread_count(request.threads)),
           origin_(request.origin) {
         for (const auto& raw : request.raw)
-            for (const auto& folder : {raw, raw.parent_path()})
+            for (const auto& folder : {raw, full_path(raw).parent_path()})
                 if (!origin_) origin_ = read_origin(folder);
     }
 

@@ -1,6 +1,7 @@
 // What `actformer ingest bvh` says of names, classes and splits.
 #include <gtest/gtest.h>
 
+#include "ingest/dataset/dataset.hpp"
 #include "tests/support/toy_dataset.hpp"
 
 using namespace actformer::test;
@@ -40,6 +41,14 @@ TEST_F(IngestBvh, DoubtsOneClassAlone) {
     const auto two = ingest("--name '{action}_{index}'");
     says(two, "of 2 classes");
     EXPECT_EQ(two.output.find("one class"), std::string::npos) << two.output;
+}
+
+TEST_F(IngestBvh, ADatasetInTheFolderOneIsInHasItsName) {
+    std::filesystem::create_directories(dir / "here");
+    const auto made = run_command("cd " + at("here") + " && " + program() +
+                                  " ingest bvh ../caps/ --name '{action}_{index}' -o .");
+    EXPECT_EQ(made.exit, 0) << made.output;
+    EXPECT_EQ(actformer::ingest::Dataset(dir / "here").header().name, "here");
 }
 
 TEST_F(IngestBvh, DoubtsASplitWithoutAClip) {

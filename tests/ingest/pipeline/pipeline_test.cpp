@@ -147,7 +147,7 @@ class TogetherFormat : public LineFormat {
 struct PipelineOnDevice : testing::Test {
     IngestSummary run(LineFormat& format, const char* out = "out", unsigned threads = 3) {
         IngestRequest request;
-        request.raw = {dir / "raw"};
+        request.raw = {raw};
         request.out = dir / out;
         request.one_dataset = true;
         request.threads = threads;
@@ -182,6 +182,7 @@ struct PipelineOnDevice : testing::Test {
     }
 
     TempDir dir;
+    fs::path raw = dir / "raw";
     kernels::Device device;
     bool strict = false;
 };
@@ -360,6 +361,20 @@ TEST_F(PipelineOnDevice, AnArchiveWithoutAFileOfTheFormatIsNamed) {
     LineFormat format;
     const auto why = error_of([&] { run(format); });
     EXPECT_NE(why.find((dir / "raw").string() + ": no .lines, .txt file in it"), std::string::npos) << why;
+}
+
+TEST_F(PipelineOnDevice, OriginIsToldInRawAndBesideIt) {
+    write_file(dir / "raw/ORIGIN", "stand-in\n");
+    write_file(dir / "raw/part/a.lines", "x 1 2\n");
+    write_file(dir / "raw/b.lines", "y 1 2\n");
+    int made = 0;
+    for (const char* given : {"raw", "raw/", "raw/part", "raw/part/", "raw/part/.", "raw/b.lines"}) {
+        raw = dir / given;
+        LineFormat format;
+        const auto out = fmt::format("out{}", made++);
+        run(format, out.c_str());
+        EXPECT_EQ(Dataset(dir / out).header().origin.kind, DataOrigin::Kind::stand_in) << given;
+    }
 }
 
 TEST_F(PipelineOnDevice, SurveysEveryFileBeforeTheFirstIsRead) {
