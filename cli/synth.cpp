@@ -12,7 +12,6 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
-#include "ingest/dataset/origin.hpp"
 #include "ingest/synth/ntu/ntu.hpp"
 #include "ingest/synth/stand_in.hpp"
 
@@ -80,7 +79,6 @@ void run(const Options& options, bool json, Make make) {
         return make([&](std::uint64_t done) { progress.update(static_cast<double>(done) / total, done); });
     }();
     sync_all(options.folder);
-    ingest::write_origin(options.folder, ingest::DataOrigin::Kind::stand_in);
     print_summary(summary, options, json,
                   std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/loose_json.hpp"
+#include "ingest/dataset/origin.hpp"
 
 namespace actformer::ingest::synth {
 
@@ -25,14 +26,15 @@ void claim_folder(const fs::path& folder, std::string_view made_by, std::uint64_
     const auto file = folder / "synth.json";
     nlohmann::ordered_json mine = {{"made_by", made_by}, {"version", ACTFORMER_VERSION}, {"seed", seed}};
     if (clips) mine["clips"] = *clips;
-    if (!fs::exists(file)) return write_file(file, mine.dump(2) + "\n");
-    const auto theirs = loose::read(file);
-    if (theirs != mine)
+    const bool is_new = !fs::exists(file);
+    if (!is_new && loose::read(file) != mine)
         throw Error(
             "{}: the folder holds clips of another seed{} or version than seed {}{} of version {}; choose "
             "another with -o",
             file.string(), clips ? ", number" : "", seed, clips ? fmt::format(" and {} clips", *clips) : "",
             ACTFORMER_VERSION);
+    write_origin(folder, DataOrigin::Kind::stand_in);
+    if (is_new) write_file(file, mine.dump(2) + "\n");
 }
 
 }  // namespace actformer::ingest::synth

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "base/error.hpp"
@@ -13,11 +15,13 @@
 #include "base/numpy/npz.hpp"
 #include "base/pickle/pickle.hpp"
 #include "ingest/dataset/height.hpp"
+#include "ingest/dataset/origin.hpp"
 #include "ingest/formats/formats.hpp"
 #include "ingest/pipeline/pipeline.hpp"
 #include "ingest/synth/babel/acts.hpp"
 #include "ingest/synth/babel/plan.hpp"
 #include "ingest/synth/gta/gta.hpp"
+#include "ingest/synth/ntu/ntu.hpp"
 #include "ingest/synth/performer/play.hpp"
 #include "ingest/synth/pickle_writer.hpp"
 #include "ingest/synth/programmes/exercises.hpp"
@@ -107,6 +111,31 @@ TEST_F(StandIns, AreTheSameForAnyNumberOfThreadsAndNotForAnotherSeed) {
         EXPECT_NO_THROW(one.make({dir / fs::path(fmt::format("{}-6-1-1", one.name)), 6, 1, 1, {}}))
             << "made again";
     }
+}
+
+TEST_F(StandIns, SayThatTheyAreStandInsBeforeTheFirstClipIsDone) {
+    const auto origin_at_first = [&](const std::string& name, const auto& make) {
+        const auto folder = dir / fs::path(name);
+        std::mutex mutex;
+        std::optional<DataOrigin::Kind> told;
+        bool any = false;
+        make(folder, [&](std::uint64_t) {
+            const std::lock_guard lock(mutex);
+            if (!std::exchange(any, true)) told = read_origin(folder);
+        });
+        EXPECT_TRUE(any) << name;
+        EXPECT_EQ(told, DataOrigin::Kind::stand_in) << name;
+    };
+    for (const auto& one : stand_ins())
+        origin_at_first(std::string(one.name), [&](const auto& folder, const auto& progress) {
+            one.make({folder, 2, 1, 2, progress});
+        });
+    origin_at_first("ntu", [](const auto& folder, const auto& progress) {
+        NtuOptions options;
+        options.folder = folder;
+        options.clips = 2;
+        synthesise_ntu(options, progress);
+    });
 }
 
 TEST_F(StandIns, MoreClipsInAFolderAreThoseOfAnEmptyOneOrRefused) {
