@@ -21,6 +21,23 @@ std::uint32_t countable(std::uint64_t frames) {
         std::min<std::uint64_t>(frames, std::numeric_limits<std::uint32_t>::max()));
 }
 
+/// Adds the lengths of a body's limbs to `lengths`, (joints).
+template <typename Number>
+void add_limb_lengths(const Number* pose, const Topology& topology, double* lengths) {
+    for (std::size_t j = 1; j < topology.joints(); ++j) {
+        const Number *joint = pose + 3 * j, *parent = pose + std::ptrdiff_t{3} * topology.parents[j];
+        const auto along = [&](std::size_t d) { return double{joint[d]} - double{parent[d]}; };
+        lengths[j] += std::hypot(along(0), along(1), along(2));
+    }
+}
+
+/// Sums over `frames` frames.
+std::vector<float> means(const std::vector<double>& sums, std::uint64_t frames) {
+    std::vector<float> out;
+    for (const double sum : sums) out.push_back(static_cast<float>(sum / static_cast<double>(frames)));
+    return out;
+}
+
 /// One clip of an array, some bodies at a time. A body is a person in a frame; the persons of a frame follow one another.
 class Reading {
   public:
@@ -228,7 +245,9 @@ class Reading {
         if (out_.values.empty()) std::copy(poses, poses + 3, origin_.begin());
         for (std::uint64_t i = 0; i < count; ++i) {
             place(poses + i * body_, &placed_[i * body_]);
-            if (!request_.limbs) add_lengths(poses + i * body_);
+            if (!request_.limbs)
+                add_limb_lengths(poses + i * body_, *request_.topology,
+                                 &lengths_[added_++ % request_.persons * joints_]);
         }
         out_.values.insert(out_.values.end(), placed_.begin(),
                            placed_.begin() + static_cast<std::ptrdiff_t>(count * body_));
@@ -252,22 +271,10 @@ class Reading {
         for (std::size_t d = 0; d < 3; ++d) to[d] = static_cast<float>(joint[d] - from[d]);
     }
 
-    template <typename Number>
-    void add_lengths(const Number* pose) {
-        double* lengths = &lengths_[added_++ % request_.persons * joints_];
-        for (std::size_t j = 1; j < joints_; ++j) {
-            const Number *joint = pose + 3 * j,
-                         *parent = pose + std::ptrdiff_t{3} * request_.topology->parents[j];
-            const auto along = [&](std::size_t d) { return double{joint[d]} - double{parent[d]}; };
-            lengths[j] += std::hypot(along(0), along(1), along(2));
-        }
-    }
-
     void finish() {
         out_.frames = static_cast<std::uint32_t>(frames_);
         out_.span = span_;
-        for (const double sum : lengths_)
-            out_.bone_length.push_back(static_cast<float>(sum / static_cast<double>(frames_)));
+        out_.bone_length = means(lengths_, frames_);
     }
 
     const JointArray& array_;
@@ -286,6 +293,15 @@ class Reading {
 };
 
 }  // namespace
+
+std::vector<float> mean_limb_lengths(const std::vector<float>& positions, std::uint32_t persons,
+                                     const Topology& topology) {
+    const auto joints = topology.joints();
+    std::vector<double> sums(persons * joints);
+    for (std::size_t body = 0; body < positions.size() / (joints * 3); ++body)
+        add_limb_lengths(&positions[body * joints * 3], topology, &sums[body % persons * joints]);
+    return means(sums, positions.size() / (sums.size() * 3));
+}
 
 std::variant<ClipPositions, Rejection> read_positions(const JointArray& array, std::uint64_t clip,
                                                       const PositionsRequest& request) {

@@ -45,4 +45,8 @@ struct ClipPositions {
 std::variant<ClipPositions, Rejection> read_positions(const JointArray& array, std::uint64_t clip,
                                                       const PositionsRequest& request);
 
+/// (persons, joints) metres, 0 for the root: the mean over the frames of `positions`, (frames, persons, joints, 3).
+std::vector<float> mean_limb_lengths(const std::vector<float>& positions, std::uint32_t persons,
+                                     const Topology& topology);
+
 }  // namespace actformer::ingest

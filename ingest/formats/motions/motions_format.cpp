@@ -384,15 +384,17 @@ class MotionsFormat::FileReader {
         motion.values.erase(motion.values.begin(),
                             motion.values.begin() + static_cast<std::ptrdiff_t>(span.first * row));
         out->values = std::move(motion.values);
-        out->bone_length = lengths(file.details(found.key).bone_length);
+        out->bone_length = lengths(file.details(found.key).bone_length, out->values);
         return out;
     }
 
-    /// The motion's own, else the file's, else usual ones.
-    std::vector<float> lengths(std::vector<float> own) const {
+    /// The motion's own, else the file's, else those between its positions where it holds these, else usual ones.
+    std::vector<float> lengths(std::vector<float> own, const std::vector<float>& values) const {
         const auto joints = header_.topology.joints(), wanted = header_.persons * joints;
         if (own.size() == wanted) return own;
         if (file_.bone_length.size() == wanted) return file_.bone_length;
+        if (header_.representation == Representation::xyz)
+            return mean_limb_lengths(values, header_.persons, header_.topology);
         const auto usual =
             header_.rest.empty() ? usual_bone_lengths(header_.topology) : rest_lengths(header_.rest);
         std::vector<float> out;

@@ -317,6 +317,28 @@ TEST_F(MotionsOnDevice, PositionsMayStay) {
     expect_near(dataset.motion(0).values, want);
 }
 
+TEST_F(MotionsOnDevice, PositionsOfThePublicLayoutTellTheirLengths) {
+    const auto xyz = [](hdf5::Writer& file) { file.attribute("representation", std::string("xyz")); };
+    const auto values = add_public("a.h5", {"dance"}, {6, joint_count, 5}, xyz);
+    run();
+    const auto lengths = made().bone_length(0);
+    ASSERT_EQ(lengths.size(), 2 * joint_count);
+    for (std::size_t p = 0; p < 2; ++p) {
+        EXPECT_EQ(lengths[p * joint_count], 0);
+        for (std::size_t j = 1; j < joint_count; ++j) {
+            double mean = 0;
+            for (std::size_t t = 0; t < 5; ++t) {
+                const auto along = [&](std::size_t d) {
+                    const auto* joint = &values[((p * 3 + d) * joint_count + j) * 5 + t];
+                    return double{joint[0]} - joint[-5];  // each joint hangs on the one before it
+                };
+                mean += std::hypot(along(0), along(1), along(2)) / 5;
+            }
+            EXPECT_NEAR(lengths[p * joint_count + j], mean, 1e-6);
+        }
+    }
+}
+
 TEST_F(MotionsOnDevice, CleaningSmooths) {
     const std::size_t frames = 40;
     const auto values = add_npy("a.npy", {frames, joint_count, 3});
