@@ -83,6 +83,19 @@ Split parse_split(const std::string& text) {
     return split;
 }
 
+std::vector<Split> parse_splits(const std::vector<std::string>& texts) {
+    std::vector<Split> splits;
+    std::set<std::string> names{"all"};
+    for (const auto& text : texts) {
+        auto& split = splits.emplace_back(parse_split(text));
+        if (!names.insert(split.name).second)
+            throw Error("split '{}': {}; give it another name", text,
+                        split.name == "all" ? "all is what every clip is in"
+                                            : "there is one called " + split.name + " before it");
+    }
+    return splits;
+}
+
 void check_fields(const std::vector<Split>& splits, const std::vector<std::string>& fields) {
     for (const auto& split : splits)
         for (const auto& condition : split.conditions)

@@ -26,6 +26,9 @@ struct Split {
 /// Throws Error showing this form.
 Split parse_split(const std::string& text);
 
+/// The same of every text. Throws Error where two splits have one name, or one is called "all", which every clip is in.
+std::vector<Split> parse_splits(const std::vector<std::string>& texts);
+
 /// Throws Error naming the split and the fields there are where a condition asks for a field that is not among `fields`.
 void check_fields(const std::vector<Split>& splits, const std::vector<std::string>& fields);
 

@@ -54,7 +54,7 @@ std::vector<Option> BvhCommand::list() {
 std::unique_ptr<Format> BvhCommand::open(const std::string& dataset) const {
     auto options = bvh;
     options.dataset = dataset;
-    for (const auto& split : splits) options.splits.push_back(parse_split(split));
+    options.splits = parse_splits(splits);
     return std::make_unique<BvhFormat>(std::move(options));
 }
 

@@ -8,7 +8,7 @@ namespace actformer::ingest {
 
 struct BvhCommand : IngestCommand {
     BvhOptions bvh;
-    std::vector<std::string> splits;  ///< as parse_split takes them
+    std::vector<std::string> splits;  ///< as parse_splits takes them
 
     std::vector<Option> list() override;
     std::unique_ptr<Format> open(const std::string& dataset) const override;

@@ -39,7 +39,7 @@ std::vector<Option> MotionsCommand::list() {
 std::unique_ptr<Format> MotionsCommand::open(const std::string& dataset) const {
     auto options = motions;
     options.dataset = dataset;
-    for (const auto& split : splits) options.splits.push_back(parse_split(split));
+    options.splits = parse_splits(splits);
     return std::make_unique<MotionsFormat>(std::move(options));
 }
 

@@ -7,7 +7,7 @@ namespace actformer::ingest {
 
 struct MotionsCommand : IngestCommand {
     MotionsOptions motions;
-    std::vector<std::string> splits;  ///< as parse_split takes them
+    std::vector<std::string> splits;  ///< as parse_splits takes them
 
     std::vector<Option> list() override;
     std::unique_ptr<Format> open(const std::string& dataset) const override;

@@ -41,7 +41,7 @@ std::unique_ptr<Format> NtuCommand::open(const std::string& dataset) const {
     if (has_own_names()) {
         options.own = own;
         options.own->dataset = dataset;
-        for (const auto& split : splits) options.own->splits.push_back(parse_split(split));
+        options.own->splits = parse_splits(splits);
     } else if (own.persons > 0 || !splits.empty()) {
         throw Error(
             "{} goes with --name or --labels; the persons and splits of files named as NTU's are told by "

@@ -11,7 +11,7 @@ struct NtuCommand : IngestCommand {
     std::string bodies = "frames";
     bool join_tracks = false;
     OwnNamesOptions own;              ///< of files with other names than NTU's
-    std::vector<std::string> splits;  ///< of those, as parse_split takes them
+    std::vector<std::string> splits;  ///< of those, as parse_splits takes them
 
     std::vector<Option> list() override;
     bool one_dataset() const override { return has_own_names(); }

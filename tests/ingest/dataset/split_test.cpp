@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "ingest/formats/ntu/ntu_format.hpp"
+#include "tests/support/error_of.hpp"
 
 using namespace actformer::ingest;
 
@@ -20,6 +21,17 @@ TEST(Split, HoldsWhereEveryConditionHolds) {
 TEST(Split, RefusesWhatIsNotOfItsForm) {
     for (const char* text : {"", "a", "=style:x", "a=", "a=style", "a=style:", "a=:x", "a=!:x"})
         EXPECT_THROW(parse_split(text), actformer::Error) << text;
+}
+
+TEST(Split, HasANameOfItsOwn) {
+    const auto refusal = [](std::vector<std::string> texts) {
+        return actformer::test::error_of([&] { parse_splits(texts); });
+    };
+    EXPECT_EQ(refusal({"train=style:a", "test=style:b"}), "");
+    EXPECT_EQ(refusal({"train=style:a", "test=style:b", "train=style:c"}),
+              "split 'train=style:c': there is one called train before it; give it another name");
+    EXPECT_EQ(refusal({"all=style:a"}),
+              "split 'all=style:a': all is what every clip is in; give it another name");
 }
 
 TEST(NtuSplits, FollowTheProtocols) {
