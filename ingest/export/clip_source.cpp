@@ -1,6 +1,7 @@
 #include "ingest/export/clip_source.hpp"
 
 #include <cmath>
+#include <set>
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
@@ -17,6 +18,7 @@ class DatasetClips : public ClipSource {
     explicit DatasetClips(const fs::path& folder) : ClipSource(folder), dataset_(folder) {
         for (const auto& clip : dataset_.clips()) clips_.push_back({clip.name, clip.label});
         if (!clips_.empty()) subjects_ = subjects_of(dataset_);
+        name_publicly();
     }
 
     std::string fingerprint() const override { return dataset_.fingerprint(); }
@@ -24,12 +26,21 @@ class DatasetClips : public ClipSource {
 
   protected:
     ExportClip read_unchecked(std::size_t clip) const override {
-        return {clips_[clip], public_name(clips_[clip].name, dataset_.clips()[clip].label),
-                dataset_.motion(clip), dataset_.body(clip)};
+        return {clips_[clip], public_names_[clip], dataset_.motion(clip), dataset_.body(clip)};
     }
 
   private:
+    void name_publicly() {
+        for (const auto& clip : dataset_.clips()) public_names_.push_back(public_name(clip.name, clip.label));
+        if (std::set(public_names_.begin(), public_names_.end()).size() == public_names_.size()) return;
+        for (std::size_t i = 0; i < clips_.size(); ++i) public_names_[i] = clips_[i].name;
+        public_names_note_ =
+            "clips keep their names: with the class at the end, as the public tools read it, some would be "
+            "called alike; the attribute label tells it";
+    }
+
     Dataset dataset_;
+    std::vector<std::string> public_names_;  ///< (clips)
 };
 
 class MotionsClips : public ClipSource {

@@ -18,9 +18,10 @@ struct ClipEntry {
 };
 
 struct ExportClip : ClipEntry {
-    std::string public_name;  ///< as the public layout spells it
-    Motion motion;            ///< of finite numbers, at least one frame
-    BodyModel body;           ///< with the clip's own bone lengths where they are known
+    std::string
+        public_name;  ///< as the public layout spells it; the clip's own where two would be spelt alike
+    Motion motion;    ///< of finite numbers, at least one frame
+    BodyModel body;   ///< with the clip's own bone lengths where they are known
 };
 
 /// Reads clips one at a time.
@@ -32,6 +33,9 @@ class ClipSource {
     const std::filesystem::path& path() const { return path_; }
     const std::vector<ClipEntry>& clips() const { return clips_; }
     const Subjects& subjects() const { return subjects_; }  ///< with mean bone lengths
+
+    /// What the user should know of the clips' public names; empty: nothing.
+    const std::string& public_names_note() const { return public_names_note_; }
 
     virtual std::string fingerprint() const = 0;  ///< of what the clips come from
 
@@ -45,6 +49,7 @@ class ClipSource {
     virtual ExportClip read_unchecked(std::size_t clip) const = 0;
     std::vector<ClipEntry> clips_;
     Subjects subjects_;
+    std::string public_names_note_;
 
   private:
     std::filesystem::path path_;

@@ -101,6 +101,7 @@ class Export {
         if (target.format->skeletons && source.subjects().representation != Representation::rot6d)
             context_.pose = rest_pose(source.read(first));
         context_.force = request.force;
+        context_.public_names_note = source.public_names_note();
         summary_.format = target.format->name;
         summary_.representation = source.subjects().representation.name();
     }

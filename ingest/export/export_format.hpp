@@ -27,7 +27,8 @@ struct ExportContext {
     std::string source;                 ///< fingerprint of what the clips come from
     std::optional<SmplBody> body = {};  ///< of a skin; only of formats that take one
     Sync sync = Sync::now;
-    bool force = false;  ///< files of others are replaced
+    bool force = false;                  ///< files of others are replaced
+    std::string public_names_note = {};  ///< as ClipSource has it
 };
 
 /// A file in the making, or for some formats a file a person. Nothing is left of it without finish().

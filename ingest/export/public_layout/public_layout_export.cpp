@@ -8,7 +8,7 @@ namespace {
 class PublicLayoutExport : public ExportFile {
   public:
     PublicLayoutExport(const std::filesystem::path& path, const ExportContext& context)
-        : path_(path), writer_(path, context.sync) {
+        : path_(path), note_(context.public_names_note), writer_(path, context.sync) {
         writer_.describe(context.subjects);
         writer_.note("program", "actformer " ACTFORMER_VERSION);
         writer_.note("source", context.source);
@@ -23,8 +23,11 @@ class PublicLayoutExport : public ExportFile {
         return {path_};
     }
 
+    std::string note() const override { return note_; }
+
   private:
     std::filesystem::path path_;
+    std::string note_;
     MotionsWriter writer_;
 };
 

@@ -294,6 +294,30 @@ TEST_F(Exported, NumbersThatAreNotFiniteAreSaidAndNothingIsLeft) {
     EXPECT_EQ(files_in(dir.path()), std::set<std::string>{"nan.h5"});
 }
 
+TEST_F(Exported, ClipsThatThePublicLayoutWouldCallAlikeKeepTheirNames) {
+    DatasetHeader header;
+    header.name = "takes";
+    header.topology = ArmsClip::topology();
+    header.classes = {"walk", "run"};
+    const auto written = [&](const std::vector<std::string>& names) {
+        std::vector<MadeClip> clips;
+        for (std::uint32_t i = 0; i < names.size(); ++i) {
+            const ArmsClip clip(0, i, 4);
+            clips.push_back({{"", 1, 0, 0, 0, {}}, clip.in(Representation::limb), clip.bone_length()});
+            clips.back().motion.name = names[i];
+        }
+        write_dataset(dir / names[0], header, clips);
+        const auto notes = export_clips(request(dir / names[0], dir / (names[0] + ".h5"))).notes;
+        return std::pair(MotionsFile(dir / (names[0] + ".h5")).names(), notes);
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(written({"aA007", "bA008"}), std::pair(Names{"aA002", "bA002"}, Names{}));
+    const auto [names, notes] = written({"takeA001", "takeA002", "z"});
+    EXPECT_EQ(names, (Names{"takeA001", "takeA002", "z"}));
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes[0].find("clips keep their names"), std::string::npos) << notes[0];
+}
+
 TEST_F(Exported, NamesThatNoFileMayHaveAreMadeFit) {
     MotionsWriter writer(dir / "names.h5");
     for (const char* name : {"..", "a:b", "a*b", "clips"})
