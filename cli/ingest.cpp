@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files/full_path.hpp"
+#include "base/text/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/format.hpp"
@@ -65,13 +66,21 @@ void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
 }
 
 void print_json(const ingest::IngestSummary& s, const IngestOptions& options) {
-    nlohmann::ordered_json json{{"out", options.out},         {"complete_before", s.was_complete},
-                                {"files", s.files},           {"resumed_files", s.resumed_files},
-                                {"made_again", s.made_again}, {"text_bytes", s.text_bytes},
-                                {"left_out", s.left_out},     {"remarks", s.remarks},
+    auto made_again = s.made_again;
+    for (auto& line : made_again) line = printable(line);
+    nlohmann::ordered_json json{{"out", printable(options.out)},
+                                {"complete_before", s.was_complete},
+                                {"files", s.files},
+                                {"resumed_files", s.resumed_files},
+                                {"made_again", made_again},
+                                {"text_bytes", s.text_bytes},
+                                {"left_out", s.left_out},
+                                {"remarks", s.remarks},
                                 {"seconds", s.seconds.wall}};
     json["doubts"] = ingest::doubts_json(s);
     json["datasets"] = ingest::datasets_json(s);
+    for (auto& dataset : json["datasets"])
+        dataset["folder"] = printable(dataset["folder"].get_ref<const std::string&>());
     fmt::print("{}\n", json.dump(2));
 }
 
@@ -113,7 +122,7 @@ void add_own(CLI::App* command, const ingest::Option& option) {
 
 /// The last part of DIR names a format's only dataset.
 std::string dataset_name(const std::filesystem::path& out) {
-    return full_path(out).filename().string();
+    return printable(full_path(out).filename().string());
 }
 
 void run(const IngestOptions& options, const ingest::IngestCommand& command) {

@@ -59,7 +59,8 @@ bool Split::holds(const std::vector<std::string>& fields, const std::vector<std:
     });
 }
 
-Split parse_split(const std::string& text) {
+Split parse_split(const std::string& given) {
+    const auto text = printable(given);
     const auto refuse = [&]() -> Error {
         return Error(
             "split '{}' is not of the form NAME=FIELD:VALUE,VALUE;FIELD!:VALUE, as in "
@@ -89,7 +90,7 @@ std::vector<Split> parse_splits(const std::vector<std::string>& texts) {
     for (const auto& text : texts) {
         auto& split = splits.emplace_back(parse_split(text));
         if (!names.insert(split.name).second)
-            throw Error("split '{}': {}; give it another name", text,
+            throw Error("split '{}': {}; give it another name", printable(text),
                         split.name == "all" ? "all is what every clip is in"
                                             : "there is one called " + split.name + " before it");
     }

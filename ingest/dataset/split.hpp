@@ -23,8 +23,8 @@ struct Split {
 };
 
 /// From the command line: "xstyle/train=style:active,normal", conditions joined by ';', "style!:a,b" for "is not".
-/// Throws Error showing this form.
-Split parse_split(const std::string& text);
+/// Fit for print, as clips' fields are. Throws Error showing this form.
+Split parse_split(const std::string& given);
 
 /// The same of every text. Throws Error where two splits have one name, or one is called "all", which every clip is in.
 std::vector<Split> parse_splits(const std::vector<std::string>& texts);

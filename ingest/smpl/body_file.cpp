@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/files/mapped_file.hpp"
 #include "base/text/html.hpp"
+#include "base/text/printable.hpp"
 #include "ingest/smpl/model_arrays.hpp"
 
 namespace actformer::ingest {
@@ -184,7 +185,7 @@ SmplBody parse_smpl_body(std::string_view bytes, const std::string& name) {
 SmplBody read_smpl_body(const std::filesystem::path& file) {
     const MappedFile mapped(file);
     try {
-        return parse_smpl_body(mapped.text(), file.filename().string());
+        return parse_smpl_body(mapped.text(), printable(file.filename().string()));
     } catch (const Error& e) {
         throw Error("{}: {}", file.string(), e.what());
     }

@@ -1,6 +1,8 @@
 // What `actformer ingest bvh` says of names, classes and splits.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "ingest/dataset/dataset.hpp"
 #include "tests/support/toy_dataset.hpp"
 
@@ -49,6 +51,19 @@ TEST_F(IngestBvh, ADatasetInTheFolderOneIsInHasItsName) {
                                   " ingest bvh ../caps/ --name '{action}_{index}' -o .");
     EXPECT_EQ(made.exit, 0) << made.output;
     EXPECT_EQ(actformer::ingest::Dataset(dir / "here").header().name, "here");
+}
+
+TEST_F(IngestBvh, NamesThatAreNoUtf8AreShownByTheirBytes) {
+    write_file(dir / "caps/r\xFFn_01_5.bvh", toy_clip(1, 5));
+    const auto made = run_actformer("ingest bvh " + at("caps") + " -o " + at("o\xFFt") +
+                                    " --name '{action}_{subject}_{index}' --split 'tr\xFF=action:r\xFFn' "
+                                    "--classes 'r\xFFn,walk,s\xFF' --json 2>/dev/null");
+    ASSERT_EQ(made.exit, 0) << made.output;
+    EXPECT_EQ(nlohmann::json::parse(made.output)["out"], at("o\\xFFt"));
+    const actformer::ingest::Dataset dataset(dir / "o\xFFt");
+    EXPECT_EQ(dataset.header().name, "o\\xFFt");
+    EXPECT_EQ(dataset.header().classes, (std::vector<std::string>{"r\\xFFn", "walk", "s\\xFF"}));
+    EXPECT_EQ(dataset.split("tr\\xFF").size(), 1U);
 }
 
 TEST_F(IngestBvh, DoubtsASplitWithoutAClip) {

@@ -100,7 +100,7 @@ bool BabelFormat::surveys_text_of(const RawText& raw) const {
 
 void BabelFormat::survey(const RawText& raw) {
     if (is_json(raw)) {
-        AnnotationFile file{std::string(raw.path), std::string(raw.stem), read_annotations(raw.text)};
+        AnnotationFile file{std::string(raw.path), printable(raw.stem), read_annotations(raw.text)};
         const std::lock_guard lock(surveying_);
         annotations_.emplace(raw.index, std::move(file));
     } else {

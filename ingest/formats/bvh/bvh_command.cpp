@@ -1,5 +1,6 @@
 #include "ingest/formats/bvh/bvh_command.hpp"
 
+#include "base/text/printable.hpp"
 #include "ingest/formats/bvh/bvh_format.hpp"
 
 namespace actformer::ingest {
@@ -54,6 +55,7 @@ std::vector<Option> BvhCommand::list() {
 std::unique_ptr<Format> BvhCommand::open(const std::string& dataset) const {
     auto options = bvh;
     options.dataset = dataset;
+    for (auto& action : options.classes) action = printable(action);
     options.splits = parse_splits(splits);
     return std::make_unique<BvhFormat>(std::move(options));
 }

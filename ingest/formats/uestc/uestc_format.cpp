@@ -93,9 +93,10 @@ class UestcFormat::Videos {
 
 void UestcFormat::survey(const RawText& raw) {
     if (!raw.ends_in(".txt")) return;
-    const auto lines = trimmed_lines(raw.text);
+    std::vector<std::string> lines;
+    for (const auto line : trimmed_lines(raw.text)) lines.push_back(printable(line));
     const std::lock_guard lock(surveying_);
-    lists_.try_emplace(std::string(raw.stem), lines.begin(), lines.end());
+    lists_.try_emplace(std::string(raw.stem), std::move(lines));
 }
 
 const std::vector<std::string>& UestcFormat::list(const std::string& name) const {

@@ -131,6 +131,13 @@ TEST(BabelCategories, AreThoseOfBabelOrAnyNamed) {
         EXPECT_THROW(categories_called(wrong), Error) << wrong;
 }
 
+TEST_F(BabelOnDevice, ASplitIsCalledByTheBytesOfAFileThatIsNoUtf8) {
+    write_amass(dir / "raw/CMU/01/01_01_poses.npz", {});
+    annotate({sequence(7, motion, "[" + label("a", R"(["walk"])", "") + "]", false)}, "tr\xFFn.json");
+    run();
+    EXPECT_EQ(Dataset(dir / "out").split("tr\\xFFn").size(), 1U);
+}
+
 TEST_F(BabelOnDevice, CutsClipsOutOfARecording) {
     write_amass(dir / "raw/CMU/01/01_01_poses.npz", {});
     write_amass(dir / "raw/CMU/01/01_02_poses.npz", {});
