@@ -20,6 +20,9 @@ namespace actformer::ingest {
 struct LeftOut {
     std::string path;
     Rejection rejection;
+
+    bool is_broken() const { return rejection.kind == Rejection::Kind::broken; }
+    std::string text() const { return path + ": " + rejection.reason; }
 };
 
 /// A clip that was kept although something about it is doubtful.

@@ -164,12 +164,20 @@ class Ingest {
         if (!read_record(request_.out, checksum(wanted), summary_))
             throw Error("{}: already there, and not from this command; remove it or choose another -o",
                         request_.out.string());
+        if (request_.strict && !summary_.first_rejections.empty()) stop_at(summary_.first_rejections[0]);
+    }
+
+    /// For --strict, at a broken clip.
+    [[noreturn]] static void stop_at(const std::string& clip) {
+        throw Error("{} (--strict; without it such clips are skipped)", clip);
     }
 
     void go_on_from(const Workplace& workplace, Source& source) {
         RawFile skipped;
         for (const auto& tranche : workplace.finished()) {
             count(tranche);
+            for (const auto& left : tranche.left_out)
+                if (request_.strict && left.is_broken()) stop_at(left.text());
             for (std::uint64_t i = 0; i < tranche.files; ++i)
                 if (!source.next_name(skipped))
                     throw Error("{}: the raw files changed while they were read; remove {}",
@@ -281,10 +289,9 @@ class Ingest {
         }
         auto rejection = std::get<Rejection>(std::move(parsed));
         rejection.reason = printable(rejection.reason);
-        const auto path = printable(file.path);
-        if (request_.strict && rejection.kind == Rejection::Kind::broken)
-            throw Error("{}: {} (--strict; without it such clips are skipped)", path, rejection.reason);
-        tranche_.left_out.push_back({path, std::move(rejection)});
+        LeftOut left{printable(file.path), std::move(rejection)};
+        if (request_.strict && left.is_broken()) stop_at(left.text());
+        tranche_.left_out.push_back(std::move(left));
     }
 
     void keep(std::unique_ptr<RawClip> clip) {

@@ -58,10 +58,10 @@ void add_up(const std::vector<Tranche>& tranches, IngestSummary& summary) {
     for (const auto& tranche : tranches) {
         summary.files += tranche.files;
         summary.text_bytes += tranche.text_bytes;
-        for (const auto& [path, rejection] : tranche.left_out) {
-            ++summary.left_out[std::string(kind_name(rejection.kind))];
-            if (summary.first_rejections.size() < shown && rejection.kind == Rejection::Kind::broken)
-                summary.first_rejections.push_back(path + ": " + rejection.reason);
+        for (const auto& left : tranche.left_out) {
+            ++summary.left_out[std::string(kind_name(left.rejection.kind))];
+            if (summary.first_rejections.size() < shown && left.is_broken())
+                summary.first_rejections.push_back(left.text());
         }
         for (const auto& one : tranche.doubts) add_doubt(one, summary.doubts);
     }

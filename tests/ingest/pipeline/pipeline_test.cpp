@@ -415,6 +415,22 @@ TEST_F(PipelineOnDevice, StopsAtABrokenClipWhenStrict) {
     EXPECT_FALSE(fs::exists(dir / "out"));
 }
 
+TEST_F(PipelineOnDevice, StopsAtABrokenClipOfEarlierWorkWhenStrict) {
+    write_file(dir / "raw/0.lines", "x 1 2\n!too short\n");
+    run_until_it_stops();
+    LineFormat format;
+    const auto strictly = [&] {
+        strict = true;
+        const auto why = error_of([&] { run(format); });
+        EXPECT_NE(why.find("0.lines: line 2: too short (--strict; without it"), std::string::npos) << why;
+        strict = false;
+    };
+    strictly();
+    EXPECT_EQ(run(format).resumed_files, 4096U) << "the finished part is kept";
+    strictly();
+    EXPECT_TRUE(run(format).was_complete);
+}
+
 TEST_F(PipelineOnDevice, DropsClassesThatNoClipHas) {
     write_file(dir / "raw/a.lines", "x 1 2\ny 3 2\nz 3 1\n");
     LineFormat kept, dropping;
