@@ -363,16 +363,9 @@ class Ingest {
         const auto& tranches = workplace.finished();
         add_up(tranches, summary_);
         if (clips_done_ == 0) {
+            const auto why = why_no_clip(tranches);
             workplace.discard();
-            const auto raw = summary_.files == 0
-                                 ? fmt::format("{}: no {} file in it", request_.raw[0].string(),
-                                               fmt::join(format_.extensions(), ", "))
-                                 : fmt::format("{}: none of {} files gave a clip", request_.raw[0].string(),
-                                               summary_.files);
-            throw Error(
-                "{}{}{}", raw,
-                summary_.first_rejections.empty() ? "; is it the raw data of this format?" : "; the first: ",
-                summary_.first_rejections.empty() ? "" : summary_.first_rejections[0]);
+            throw Error("{}: {}", request_.raw[0].string(), why);
         }
         summary_.remarks = format_.remarks();
         for (std::size_t d = 0; d < format_.datasets().size(); ++d) {
@@ -394,6 +387,16 @@ class Ingest {
                     record_text({format_.settings(), checksum(wanted), fingerprint_}, request_.out, summary_),
                     Sync::later);
         workplace.deliver(request_.out);
+    }
+
+    /// With the first clip that was left out, one that is broken where there is any.
+    std::string why_no_clip(const std::vector<Tranche>& tranches) const {
+        std::string first = summary_.first_rejections.empty() ? "" : summary_.first_rejections[0];
+        for (const auto& tranche : tranches)
+            if (first.empty() && !tranche.left_out.empty()) first = tranche.left_out[0].text();
+        return (summary_.files == 0 ? fmt::format("no {} file in it", fmt::join(format_.extensions(), ", "))
+                                    : fmt::format("none of {} files gave a clip", summary_.files)) +
+               (first.empty() ? "; is it the raw data of this format?" : "; the first: " + first);
     }
 
     /// The classes dropped in a line, or nothing where none was.

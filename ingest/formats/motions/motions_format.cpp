@@ -359,7 +359,9 @@ class MotionsFormat::FileReader {
             return Rejection{
                 Rejection::Kind::dropped,
                 fmt::format("{} stay as they are: no --clean, --scale or --up for them",
-                            file_.representation == Representation::rot6d ? "rotations" : "limbs")};
+                            file_.representation == Representation::rot6d ? "rotations"
+                            : file_.representation == Representation::xyz ? "positions in the public layout"
+                                                                          : "limbs")};
         auto motion = file.read(found.key);
         if (const auto bad = std::find_if(motion.values.begin(), motion.values.end(),
                                           [](float x) { return !std::isfinite(x); });

@@ -339,6 +339,16 @@ TEST_F(MotionsOnDevice, PositionsOfThePublicLayoutTellTheirLengths) {
     }
 }
 
+TEST_F(MotionsOnDevice, WhyNoClipIsLeftIsSaid) {
+    add_public("a.h5", {"dance"}, {3, joint_count, 5},
+               [](hdf5::Writer& file) { file.attribute("representation", std::string("xyz")); });
+    options.scale = 0.001;
+    EXPECT_EQ(fault(),
+              fmt::format("{0}: none of 1 files gave a clip; the first: {0}/a.h5: 'dance': positions in the "
+                          "public layout stay as they are: no --clean, --scale or --up for them",
+                          (dir / "raw").string()));
+}
+
 TEST_F(MotionsOnDevice, CleaningSmooths) {
     const std::size_t frames = 40;
     const auto values = add_npy("a.npy", {frames, joint_count, 3});
