@@ -1,7 +1,8 @@
 // Limb-vector normalisation with re-centring: limbs to unit length, roots relative to their clip's mean root.
 //
 // Data layout
-//   rows    (frames, P, pitch)  float   smoothed limbs: joint k's three numbers at 3k, joint 0 the root's position; pitch >= 48
+//   rows    (frames, P, pitch)  float   smoothed limbs: joint k's three numbers at 3k, joint 0 the root's position; 48 numbers
+//                                       can be read from the beginning of any row
 //   start   (clips + 1)         uint    frames of a clip: start[clip] .. start[clip+1]-1
 //   owner   (frames)            uint    the clip of each frame
 //   bones   (clips, P, K)       float   mean length of every limb, 0 for the root

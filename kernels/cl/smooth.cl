@@ -7,8 +7,8 @@
 //   start   (clips + 1)         uint   frames of a clip: start[clip] .. start[clip+1]-1
 //   pair    (frames, P)         uint2  the detections before and after each frame
 //   weight  (frames, P)         float  how much of the one after
-//   limbs   (detections, C)     float  C = K*3 numbers a body; 16 spare ones behind the last
-//   rows    (frames, P, pitch)  float  pitch = C rounded up to 16; of no meaning behind the C numbers
+//   limbs   (detections, C)     float  C = K*3 numbers a body; 48 readable ones behind the last
+//   rows    (frames, P, pitch)  float  pitch = C rounded up to 16, 48 at least; of no meaning behind the C numbers
 //
 // Macros (vectors.cl stands before this file): VEC, at most 16, and FRAMES. A work-item holds VEC * FRAMES sums.
 
