@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <mutex>
 #include <set>
 #include <sstream>
@@ -123,17 +124,21 @@ class LineFormat : public Format {
     std::vector<DatasetHeader> datasets_;
 };
 
-/// A file's clips are made together; what made them is noted.
+/// A file's clips are made together; what made them is noted. Whoever makes one waits, for a minute at most, until so many threads do.
 class TogetherFormat : public LineFormat {
   public:
+    explicit TogetherFormat(std::size_t wanted) : wanted_(wanted) {}
+
     void read(const RawText& raw, ClipSink& sink) const override {
         LineFormat::read(raw, sink);
         make_in_order(
             64, sink, [](std::size_t) { return std::size_t{1}; },
             [&](std::size_t i) {
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
-                const std::lock_guard lock(noting_);
+                std::unique_lock lock(noting_);
                 threads.insert(std::this_thread::get_id());
+                met_.notify_all();
+                const auto all_met = [&] { return threads.size() >= wanted_ || gave_up_; };
+                gave_up_ = !met_.wait_for(lock, std::chrono::minutes(1), all_met) || gave_up_;
                 return Rejection{Rejection::Kind::dropped, fmt::format("clip {}", i)};
             },
             [](std::size_t) {});
@@ -141,7 +146,10 @@ class TogetherFormat : public LineFormat {
     mutable std::set<std::thread::id> threads;
 
   private:
+    std::size_t wanted_;
     mutable std::mutex noting_;
+    mutable std::condition_variable met_;
+    mutable bool gave_up_ = false;
 };
 
 struct PipelineOnDevice : testing::Test {
@@ -395,9 +403,9 @@ TEST_F(PipelineOnDevice, SurveysEveryFileBeforeTheFirstIsRead) {
 TEST_F(PipelineOnDevice, MakesAFilesClipsOnAsManyThreadsAsAskedFor) {
     write_file(dir / "raw/a.lines", "a 1 2\n");
     for (const unsigned threads : {1U, 3U}) {
-        TogetherFormat format;
+        TogetherFormat format(threads);
         run(format, threads == 1 ? "one" : "three", threads);
-        EXPECT_LE(format.threads.size(), threads);
+        EXPECT_EQ(format.threads.size(), threads);
     }
 }
 
