@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/hdf5/reader.hpp"
@@ -29,8 +30,9 @@ std::string_view renumber(const fs::path& path, const std::vector<std::uint32_t>
 
 }  // namespace
 
-std::vector<std::string> drop_empty_classes(DatasetFile& file, const std::set<std::uint32_t>& labels,
-                                            const fs::path& folder) {
+std::vector<std::string> drop_empty_classes(
+    DatasetFile& file, const std::set<std::uint32_t>& labels, const fs::path& folder,
+    const std::function<void(const std::map<fs::path, std::string>&)>& announce) {
     std::vector<std::string> kept, dropped;
     std::vector<std::uint32_t> renumbered;
     for (std::uint32_t label = 0; label < file.header.classes.size(); ++label) {
@@ -39,12 +41,16 @@ std::vector<std::string> drop_empty_classes(DatasetFile& file, const std::set<st
     }
     if (dropped.empty()) return {};
     std::vector<char> scratch;
+    std::map<fs::path, std::string> to_be;
+    for (const auto& shard : file.shards)
+        if (const auto path = folder / shard.file; hdf5::Reader(path).contents() == shard.checksum)
+            to_be[path] = checksum(renumber(path, renumbered, scratch));
+    announce(to_be);
     for (auto& shard : file.shards) {
         const auto path = folder / shard.file;
-        const auto checksum = hdf5::Reader(path).contents();
-        if (checksum == shard.checksum) write_whole(path, renumber(path, renumbered, scratch), Sync::later);
+        if (to_be.contains(path)) write_whole(path, renumber(path, renumbered, scratch), Sync::later);
         const hdf5::Reader now(path);
-        shard.checksum = checksum == shard.checksum ? now.contents() : checksum;
+        shard.checksum = now.contents();
         shard.metadata = now.metadata("motion");
     }
     file.header.classes = std::move(kept);

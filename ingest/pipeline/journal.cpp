@@ -80,6 +80,7 @@ void Workplace::load(const std::string& request) {
                                      (folder_ / "journal").string()));
         return start_afresh(request);
     }
+    read_announced();
     for (std::size_t number = 2; std::getline(journal, line) && !journal.eof(); ++number) {
         if (!take_line(line, number)) break;  // a line without its end was cut short by the kill
         whole += line + "\n";
@@ -113,10 +114,25 @@ std::string Workplace::fault_of(const Tranche& tranche) const {
         const auto path = data() / shard.entry.file;
         if (std::error_code missing; fs::file_size(path, missing) != shard.entry.bytes || missing)
             return fmt::format("{}: missing, or of another size", path.string());
-        if (checksum_file(path) != shard.checksum)
+        const auto announced = announced_.find(shard.entry.file);
+        if (const auto sum = checksum_file(path);
+            sum != shard.checksum && (announced == announced_.end() || sum != announced->second))
             return fmt::format("{}: changed since it was written", path.string());
     }
     return {};
+}
+
+void Workplace::announce(const std::map<fs::path, std::string>& to_be) {
+    for (const auto& [path, sum] : to_be) announced_[path.lexically_relative(data())] = sum;
+    std::string text;
+    for (const auto& [file, sum] : announced_) text += fmt::format("{} {}\n", sum, file.string());
+    write_whole(folder_ / "announced", text);
+}
+
+void Workplace::read_announced() {
+    std::ifstream file(folder_ / "announced", std::ios::binary);
+    std::string sum, path;
+    while (file >> sum && file.get() == ' ' && std::getline(file, path)) announced_[path] = sum;
 }
 
 void Workplace::remove_unfinished() const {
@@ -134,6 +150,7 @@ void Workplace::start_afresh(const std::string& request) {
     finished_.clear();
     sum_.clear();
     fs::remove(folder_ / "journal");
+    fs::remove(folder_ / "announced");
     fs::remove_all(data());
     make_folders(data());
     append(folder_ / "journal", line_for(request));

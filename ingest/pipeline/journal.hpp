@@ -1,9 +1,11 @@
 // What an ingest has finished so far: OUT.partial/journal. Its first line is the request, then comes a line of JSON for every tranche. Each
 // line begins with the checksum of itself and of all lines before it, and tells the checksums of the shards' bytes. A run
-// that was killed goes on behind the last line that is right and whose shards are.
+// that was killed goes on behind the last line that is right and whose shards are. Shards that are written anew at the end, all lines
+// being there, have their later checksums in OUT.partial/announced.
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -65,6 +67,9 @@ class Workplace {
     /// The shards of `tranche` are in place: note it down.
     void finish(Tranche tranche);
 
+    /// Shards, whatever tranche they are of, may from here on have bytes of these checksums as well.
+    void announce(const std::map<std::filesystem::path, std::string>& to_be);
+
     /// Moves data() to `out`, whole and on the disk, and removes what is left.
     void deliver(const std::filesystem::path& out);
 
@@ -75,6 +80,7 @@ class Workplace {
     void load(const std::string& request);
     bool take_line(const std::string& line, std::size_t number);
     std::string fault_of(const Tranche& tranche) const;
+    void read_announced();
     void remove_unfinished() const;
     void start_afresh(const std::string& request);
     std::string line_for(const std::string& text);
@@ -83,6 +89,8 @@ class Workplace {
     std::optional<FileLock> lock_;
     std::vector<Tranche> finished_;
     std::vector<std::string> notes_;
+    std::map<std::filesystem::path, std::string>
+        announced_;    ///< shards below data() and the checksums that their bytes may have as well
     std::string sum_;  ///< of the journal's lines so far
 };
 

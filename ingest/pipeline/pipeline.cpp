@@ -374,7 +374,7 @@ class Ingest {
             const auto folder = workplace.data() / folder_of(d);
             file.remarks = format_.remarks();
             if (format_.drops_empty_classes())
-                if (const auto lost = drop_classes(d, file, tranches, folder); !lost.empty()) {
+                if (const auto lost = drop_classes(d, file, workplace); !lost.empty()) {
                     file.remarks.push_back(lost);
                     summary_.remarks.push_back(lost);
                 }
@@ -400,13 +400,13 @@ class Ingest {
     }
 
     /// The classes dropped in a line, or nothing where none was.
-    static std::string drop_classes(std::size_t dataset, DatasetFile& file,
-                                    const std::vector<Tranche>& tranches, const fs::path& folder) {
+    std::string drop_classes(std::size_t dataset, DatasetFile& file, Workplace& workplace) const {
         std::set<std::uint32_t> labels;
-        for (const auto& tranche : tranches)
+        for (const auto& tranche : workplace.finished())
             for (const auto& [owner, label] : tranche.labels)
                 if (owner == dataset) labels.insert(label);
-        const auto dropped = drop_empty_classes(file, labels, folder);
+        const auto dropped = drop_empty_classes(file, labels, workplace.data() / folder_of(dataset),
+                                                [&](const auto& to_be) { workplace.announce(to_be); });
         if (dropped.empty()) return {};
         return fmt::format("no clip was left of {}: {} not among the classes", fmt::join(dropped, ", "),
                            dropped.size() == 1 ? "it is" : "they are");

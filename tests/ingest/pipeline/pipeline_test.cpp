@@ -152,6 +152,19 @@ class TogetherFormat : public LineFormat {
     mutable bool gave_up_ = false;
 };
 
+/// A file is made where the dataset is to be put, once its clips are done.
+class HinderedFormat : public LineFormat {
+  public:
+    explicit HinderedFormat(fs::path file) : file_(std::move(file)) {}
+    std::vector<std::string> remarks() const override {
+        write_file(file_, "in the way");
+        return LineFormat::remarks();
+    }
+
+  private:
+    fs::path file_;
+};
+
 struct PipelineOnDevice : testing::Test {
     IngestSummary run(LineFormat& format, const char* out = "out", unsigned threads = 3) {
         IngestRequest request;
@@ -457,4 +470,22 @@ TEST_F(PipelineOnDevice, DropsClassesThatNoClipHas) {
     ASSERT_EQ(summary.remarks.size(), 2U);
     EXPECT_EQ(summary.remarks[1], "no clip was left of c0, c2: they are not among the classes");
     EXPECT_EQ(Dataset(dir / "kept").motion(2).values, dataset.motion(2).values);
+}
+
+TEST_F(PipelineOnDevice, WorkIsKeptWhereItCannotBePutInPlaceThoughClassesWereDropped) {
+    write_file(dir / "raw/a.lines", "x 1 2\ny 3 2\nz 3 1\n");
+    LineFormat format;
+    format.drops = true;
+    run(format, "undisturbed");
+    HinderedFormat hindered(dir / "out/in the way");
+    hindered.drops = true;
+    for (int time = 0; time < 2; ++time) {
+        const auto why = error_of([&] { run(hindered); });
+        EXPECT_NE(why.find("1 files are done and kept"), std::string::npos) << why;
+        fs::remove_all(dir / "out");
+    }
+    const auto summary = run(format);
+    EXPECT_EQ(summary.resumed_files, 1U);
+    EXPECT_EQ(summary.made_again, std::vector<std::string>());
+    EXPECT_EQ(contents(dir / "out"), contents(dir / "undisturbed"));
 }
