@@ -310,8 +310,8 @@ ParsedClip BvhFormat::make_clip(const NamedClip& named, const std::vector<Record
     const double fps = options_.recorded_fps > 0 ? options_.recorded_fps : persons[0].fps();
     const std::uint32_t recorded = persons[0].frames;
     const auto span = frame_span(named.start, named.end, recorded);
-    const std::uint32_t first =
-        std::max({options_.skip_first, frame_at(settings_.start, fps), named.start.value_or(0)});
+    const std::uint32_t skipped = std::max(options_.skip_first, frame_at(settings_.start, fps)),
+                        first = std::max(skipped, named.start.value_or(0));
     const std::uint32_t last = std::min(span.last, settings_.end ? frame_at(*settings_.end, fps) : recorded);
     if (first >= last)
         return broken(fmt::format("no frame is left of {}: from {} to {}", recorded, first, last));
@@ -330,7 +330,11 @@ ParsedClip BvhFormat::make_clip(const NamedClip& named, const std::vector<Record
     clip->step = static_cast<float>(step);
     for (std::size_t p = 0; p < persons.size(); ++p) {
         auto person = cut(persons[p], first, last);
-        if (p == 0) clip->doubts = doubts_of(person, skeletons[p], first);
+        if (p == 0)
+            clip->doubts =
+                doubts_of(person, skeletons[p],
+                          first > skipped ? "a start_frame of one more in the labels leaves it out"
+                                          : fmt::format("--skip-first {} leaves it out", first + 1));
         clip->persons.push_back({kinematic_joints(person, skeletons[p]), std::move(person.values)});
     }
     span.add_doubts(clip->doubts);
@@ -338,12 +342,11 @@ ParsedClip BvhFormat::make_clip(const NamedClip& named, const std::vector<Record
 }
 
 std::vector<std::string> BvhFormat::doubts_of(const Recording& person, const Skeleton& skeleton,
-                                              std::uint32_t first) {
+                                              const std::string& first_left_out) {
     if (person.frames == 1) return {"a single frame holds no motion"};
     if (stands_still(person)) return {"nothing moves"};
     if (begins_with_jump(person, skeleton.root))
-        return {fmt::format(
-            "the first frame is a jump, as from a reference pose; --skip-first {} leaves it out", first + 1)};
+        return {"the first frame is a jump, as from a reference pose; " + first_left_out};
     return {};
 }
 

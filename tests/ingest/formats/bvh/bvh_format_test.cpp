@@ -661,6 +661,24 @@ TEST(BvhFormat, LabelsCutAFileIntoClips) {
     EXPECT_EQ(refusal(*format, person(), "walk_2.bvh"), fmt::format("no row of {} is for it", o.labels));
 }
 
+TEST(BvhFormat, AFirstFrameThatJumpsIsLeftOutWhereItsLabelStarts) {
+    const test::TempDir dir;
+    test::write_file(dir / "labels.csv", "file,action,start_frame\nwalk_1.bvh,walk,1\n");
+    const auto text = replaced(person("y", 1, "0 0 0 0 0\n-500 0 0 0 0\n"), "Frames: 4", "Frames: 5");
+    auto o = options();
+    o.pattern = "";
+    o.labels = (dir / "labels.csv").string();
+    const auto doubts = [&] {
+        return taken(read(*settled(o, {{"walk_1.bvh", text}}), "walk_1.bvh", text))[0]->doubts;
+    };
+    EXPECT_EQ(doubts(),
+              Names{"the first frame is a jump, as from a reference pose; a start_frame of one more "
+                    "in the labels leaves it out"});
+    o.skip_first = 1;
+    EXPECT_EQ(doubts(),
+              Names{"the first frame is a jump, as from a reference pose; --skip-first 2 leaves it out"});
+}
+
 TEST(BvhFormat, ALabelThatEndsBehindTheFileIsCutOffThereAndSaysSo) {
     const test::TempDir dir;
     test::write_file(dir / "labels.csv",
