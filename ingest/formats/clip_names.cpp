@@ -1,6 +1,7 @@
 #include "ingest/formats/clip_names.hpp"
 
 #include <algorithm>
+#include <set>
 #include <unordered_set>
 
 #include "base/checksum/checksum.hpp"
@@ -14,6 +15,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view person_field = "person";
+
+/// Clips of a file that are called alike but show different actions, as labels of the same span do, have these behind their names.
+void call_apart(std::vector<NamedClip>& clips) {
+    std::map<std::string, std::set<std::string>> actions;
+    for (const auto& clip : clips) actions[clip.name].insert(clip.action);
+    for (auto& clip : clips)
+        if (actions[clip.name].size() > 1) clip.name += "_" + clip.action;
+}
 
 std::size_t parts_of(const std::string& path) {
     return 1 + static_cast<std::size_t>(std::count(path.begin(), path.end(), '/'));
@@ -153,6 +162,7 @@ std::variant<std::vector<NamedClip>, Rejection> ClipNames::clips_of(const std::s
         clip.fields.insert(clip.fields.end(), file.fields.begin(), file.fields.end());
         out.push_back(std::move(clip));
     }
+    call_apart(out);
     return out;
 }
 

@@ -81,6 +81,17 @@ TEST(ClipNames, LabelsCutFilesIntoClips) {
               table.string() + ": 1 of 4 rows are for files that are not there: c.bvh");
 }
 
+TEST(ClipNames, LabelsOfOneSpanHaveTheirActionsInTheirNames) {
+    const test::TempDir dir;
+    test::write_file(dir / "labels.csv",
+                     "file,action,start,end\na,walk,0,10\na,wave,0,10\na,sit,10,20\na,sit,10,20\n");
+    const ClipNames names("", dir / "labels.csv");
+    Names found;
+    for (const auto& clip : clips(names, "a.bvh", "a.bvh")) found.push_back(clip.name);
+    EXPECT_EQ(found, (Names{"a_0-10_walk", "a_0-10_wave", "a_10-20", "a_10-20"}))
+        << "a row that comes twice is one";
+}
+
 TEST(ClipNames, FilesOfOneClipShareAllFieldsButThePerson) {
     ClipNames names("{action}_{take}_{person}", "");
     EXPECT_EQ(names.fields(), (Names{"action", "take"}));
