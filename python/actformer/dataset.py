@@ -79,6 +79,12 @@ class Dataset:
                 tuple(topology["parents"]),
                 rest=None if rest is None else np.array(rest, np.float32),
             )
+            self._fields: List[str] = list(header["fields"])
+            for name, conditions in self.splits.items():
+                for condition in conditions:
+                    if condition.field not in self._fields:
+                        raise Error(f"damaged: split '{name}' asks for '{condition.field}', which is none of the "
+                                    "clips' fields; ingest the raw data again")
             self._shards: List[str] = [shard["file"] for shard in header["shards"]]
         except (KeyError, TypeError, ValueError, AttributeError) as why:
             raise Error(f"{where}: damaged: {type(why).__name__} {why}; ingest the raw data again") from None
@@ -158,8 +164,7 @@ class Dataset:
         return self._open[2]
 
     def _read_clips(self, shard: int) -> Iterator[Clip]:
-        path, file = self.folder / self._shards[shard], self._file(shard)
-        fields = list(self.header["fields"])
+        path, file, fields = self.folder / self._shards[shard], self._file(shard), self._fields
         try:
             frames = len(file["motion"])
             if file["motion"].shape[1:] != (self.persons, self.body.nodes, self.body.numbers):

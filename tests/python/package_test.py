@@ -206,6 +206,9 @@ class Mistakes(unittest.TestCase):
                               (lambda d: d.pop("classes"), ["dataset.json", "classes", "ingest"]),
                               (lambda d: d.update(representation="quat"), ["'quat' is none of limb"]),
                               (lambda d: d["topology"]["parents"].__setitem__(3, 99), ["joint 3 has the parent 99"]),
+                              (lambda d: d.pop("fields"), ["dataset.json", "fields", "ingest"]),
+                              (lambda d: d["fields"].remove("performer"),
+                               ["dataset.json", "split 'xsub/train' asks for 'performer'", "ingest"]),
                               (lambda d: d.update(persons=3), ["shard-00000.h5", "'motion'"])):
             subprocess.run(["rm", "-rf", "damaged"], check=True)
             subprocess.run(["cp", "-r", "ntu/ntu-1p", "damaged"], check=True)
