@@ -90,8 +90,7 @@ void HumanAct12Format::settle() {
     } else {
         header.name = options_.dataset;
         header.topology = smpl24();
-        header.representation = options_.target.representation == Representation::xyz ? Representation::xyz
-                                                                                      : Representation::limb;
+        header.representation = options_.target.of_joints();
         header.origin.kind = DataOrigin::Kind::recorded;
     }
     header.fps = options_.fps;

@@ -73,16 +73,12 @@ std::variant<std::unique_ptr<PositionClip>, Rejection> joints_of(const PickleVal
     return position_clip(chosen, up, header);
 }
 
-Representation joints_representation(const Ntu13Options& options) {
-    return options.target.representation == Representation::xyz ? Representation::xyz : Representation::limb;
-}
-
 DatasetHeader header_of(const Ntu13Options& options) {
     if (!options.joints) return options.target.header(options.dataset);
     DatasetHeader header;
     header.name = options.dataset;
     header.topology = vibe::action2motion18();
-    header.representation = joints_representation(options);
+    header.representation = options.target.of_joints();
     header.origin.kind = DataOrigin::Kind::recorded;
     return header;
 }
@@ -97,9 +93,9 @@ Ntu13Format::Ntu13Format(Ntu13Options options)
 }
 
 std::string Ntu13Format::settings() const {
-    const auto what =
-        options_.joints ? fmt::format("{} of Action2Motion's joints", joints_representation(options_).name())
-                        : options_.target.text();
+    const auto what = options_.joints
+                          ? fmt::format("{} of Action2Motion's joints", datasets_[0].representation.name())
+                          : options_.target.text();
     return fmt::format("ntu13{}: {}", options_.published ? ", y down" : "", what);
 }
 

@@ -69,10 +69,9 @@ void write_places(const Places& bones, float* to) {
 std::vector<Option> RotationalOptions::list() {
     return {
         Option("--representation",
-               "What rotations become: rot6d, or limb or xyz, of the rest skeleton's joints", "REP",
+               "What rotations become: rot6d (default), or limb or xyz, of the rest skeleton's joints", "REP",
                &representation)
-            .one_of({"rot6d", "limb", "xyz"})
-            .with_default(),
+            .one_of({"rot6d", "limb", "xyz"}),
         Option(
             "--body",
             "SMPL's model file, as SMPL_NEUTRAL.pkl or .npz: the rest skeleton is its mean body's, whatever "
@@ -81,8 +80,18 @@ std::vector<Option> RotationalOptions::list() {
 }
 
 RotationalTarget RotationalOptions::target() const {
-    return {Representation::named(representation, "--representation"),
-            body.empty() ? generic_skeleton() : read_smpl_body(body).rest()};
+    return {Representation::named(representation.empty() ? "rot6d" : representation, "--representation"),
+            body.empty() ? generic_skeleton() : read_smpl_body(body).rest(),
+            !body.empty()               ? "--body"
+            : representation == "rot6d" ? "--representation rot6d"
+                                        : ""};
+}
+
+Representation RotationalTarget::of_joints() const {
+    if (!of_rotations_alone.empty())
+        throw Error("{} is of rotations, and joints are taken; leave it out, or give --from rotations",
+                    of_rotations_alone);
+    return representation == Representation::xyz ? Representation::xyz : Representation::limb;
 }
 
 std::string RotationalTarget::text() const {

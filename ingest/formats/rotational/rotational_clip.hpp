@@ -19,6 +19,12 @@ namespace actformer::ingest {
 struct RotationalTarget {
     Representation representation = Representation::rot6d;  ///< limb and xyz: of the skeleton's joints
     RestSkeleton skeleton = generic_skeleton();
+    std::string
+        of_rotations_alone{};  ///< an option that was given and speaks of rotations, as "--body"; empty: none
+
+    /// What joints become that are taken in place of rotations: limb, or xyz where that was asked for. Throws Error where an option was
+    /// given that speaks of rotations.
+    Representation of_joints() const;
 
     /// As Format::settings() says it.
     std::string text() const;
@@ -29,7 +35,7 @@ struct RotationalTarget {
 
 /// The options that `actformer ingest NAME` has for all of this.
 struct RotationalOptions {
-    std::string representation = "rot6d";
+    std::string representation;  ///< empty: rot6d
     std::string body;  ///< SMPL's model file, whose mean body gives the rest skeleton; empty: the generic one
 
     std::vector<Option> list();  ///< bound to this object

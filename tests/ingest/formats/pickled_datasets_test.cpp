@@ -6,7 +6,9 @@
 #include "base/error.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/formats/humanact12/array_name.hpp"
+#include "ingest/formats/humanact12/humanact12_command.hpp"
 #include "ingest/formats/humanact12/humanact12_format.hpp"
+#include "ingest/formats/ntu13/ntu13_command.hpp"
 #include "ingest/formats/ntu13/ntu13_format.hpp"
 #include "ingest/formats/nturecon/nturecon_format.hpp"
 #include "ingest/formats/uestc/uestc_format.hpp"
@@ -14,6 +16,8 @@
 #include "ingest/pipeline/pipeline.hpp"
 #include "tests/support/arrays.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/made_body.hpp"
 #include "tests/support/pickle_text.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -115,6 +119,32 @@ TEST_F(SampledOnDevice, Ntu13Joints) {
     run(format, samples + "/ntu13");
     agree("ntu13-joints", samples + "/ntu13");
     EXPECT_EQ(made().header().topology.joints(), 18U);
+}
+
+TEST(OptionsOfRotations, AreRefusedWhereJointsAreTaken) {
+    const TempDir dir;
+    write_body(dir / "SMPL.npz", made_body());
+    const auto refusals = [](const RotationalOptions& rotations) {
+        Ntu13Command ntu13;
+        ntu13.rotations = rotations;
+        ntu13.from = "joints";
+        HumanAct12Command arrays;
+        arrays.rotations = rotations;
+        return std::pair(error_of([&] { ntu13.open("x"); }), error_of([&] {
+                             const auto format = arrays.open("x");
+                             format->survey({"raw/a.npy", "a", {}});
+                             format->settle();
+                         }));
+    };
+    const auto refused = [](const std::string& option) {
+        const auto why =
+            option + " is of rotations, and joints are taken; leave it out, or give --from rotations";
+        return std::pair(why, why);
+    };
+    EXPECT_EQ(refusals({"", (dir / "SMPL.npz").string()}), refused("--body"));
+    EXPECT_EQ(refusals({"rot6d", ""}), refused("--representation rot6d"));
+    EXPECT_EQ(refusals({"xyz", ""}), std::pair(std::string(), std::string()));
+    EXPECT_EQ(refusals({"", ""}), std::pair(std::string(), std::string()));
 }
 
 TEST_F(SampledOnDevice, HumanAct12) {
