@@ -1,5 +1,7 @@
 #include "ingest/export/clip_source.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <set>
 
@@ -30,13 +32,25 @@ class DatasetClips : public ClipSource {
     }
 
   private:
+    /// Where two clips would be called alike, a number before the class tells them apart. Names that stay as they are come first.
     void name_publicly() {
-        for (const auto& clip : dataset_.clips()) public_names_.push_back(public_name(clip.name, clip.label));
-        if (std::set(public_names_.begin(), public_names_.end()).size() == public_names_.size()) return;
-        for (std::size_t i = 0; i < clips_.size(); ++i) public_names_[i] = clips_[i].name;
-        public_names_note_ =
-            "clips keep their names: with the class at the end, as the public tools read it, some would be "
-            "called alike; the attribute label tells it";
+        std::set<std::string> taken;
+        for (const auto& clip : clips_) {
+            public_names_.push_back(public_name(clip.name, *clip.label));
+            if (public_names_.back() == clip.name) taken.insert(clip.name);
+        }
+        constexpr std::size_t class_length = 4;  // A and three digits
+        for (std::size_t i = 0; i < clips_.size(); ++i) {
+            auto& name = public_names_[i];
+            if (name == clips_[i].name || taken.insert(name).second) continue;
+            const auto stem = name.substr(0, name.size() - class_length), of_class = name.substr(stem.size());
+            for (int n = 2; !taken.insert(name).second; ++n) name = fmt::format("{}_{}{}", stem, n, of_class);
+            if (public_names_note_.empty())
+                public_names_note_ = fmt::format(
+                    "some clips would be called alike with their class at the end, and have numbers before "
+                    "it, as {} for {}",
+                    in_quotes(name), in_quotes(clips_[i].name));
+        }
     }
 
     Dataset dataset_;

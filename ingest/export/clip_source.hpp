@@ -19,7 +19,7 @@ struct ClipEntry {
 
 struct ExportClip : ClipEntry {
     std::string
-        public_name;  ///< as the public layout spells it; the clip's own where two would be spelt alike
+        public_name;  ///< as the public layout spells it, with a number where two would be spelt alike
     Motion motion;    ///< of finite numbers, at least one frame
     BodyModel body;   ///< with the clip's own bone lengths where they are known
 };
