@@ -8,13 +8,13 @@
 #include <optional>
 #include <variant>
 
+#include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/full_path.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/process/process.hpp"
 #include "base/process/shipped.hpp"
 #include "base/text/loose_json.hpp"
-#include "base/text/lower_case.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/format.hpp"
@@ -64,20 +64,20 @@ std::string why_of(const reports::JobStatus& status) {
 /// As much of the end of `path` as tells it from `other`.
 std::string name_beside(const fs::path& path, const fs::path& other) {
     auto rest = full_path(path), against = full_path(other);
-    auto name = rest.filename().string();
+    auto name = printable(rest.filename().string());
     if (rest == against) return name;
     while (rest.filename() == against.filename()) {
         rest = rest.parent_path();
         against = against.parent_path();
         if (!rest.has_filename()) break;
-        name += " of " + rest.filename().string();  // names of tables' rows hold no /
+        name += " of " + printable(rest.filename().string());  // names of tables' rows hold no /
     }
     return name;
 }
 
 /// The last part of a path, also of "." and "cmu/".
 std::string last_part(const fs::path& path) {
-    return fs::absolute(path / "").lexically_normal().parent_path().filename().string();
+    return printable(full_path(path).filename().string());
 }
 
 /// How the name of every comparison's sweep begins; reports tell them apart by their folders.
@@ -212,16 +212,16 @@ Json to_json(const std::vector<Compared>& all, const std::vector<std::string>& w
     return {{"metrics", metrics}, {"warnings", warnings}, {"report", page.string()}};
 }
 
-/// As a table may be called.
-std::string table_id(std::string name) {
-    std::ranges::replace_if(
-        name, [](char c) { return c < '0' || (c > '9' && lower_case(c) < 'a') || c > 'z'; }, '-');
-    return name;
+/// As a table may be called, and another for each folder.
+std::string table_id(const fs::path& out) {
+    Checksum folder;
+    folder.add(full_path(out).string());
+    return "comparison-" + folder.hex().substr(0, 8);
 }
 
 /// The table that stands first in the report: both sides, with the metrics that they have.
-void add_table(reports::Sweep& sweep, const std::vector<Compared>& all) {
-    const auto id = table_id(sweep.name);
+void add_table(reports::Sweep& sweep, const std::vector<Compared>& all, const fs::path& out) {
+    const auto id = table_id(out);
     const auto& dataset = sweep.rows[0].data;
     Json names = Json::array(), rows = Json::object();
     for (const auto& one : all) names.push_back(one.metric->name);
@@ -229,7 +229,7 @@ void add_table(reports::Sweep& sweep, const std::vector<Compared>& all) {
         rows[row.name] = Json::object();
         row.fills = {id + "/" + row.name + "/" + dataset};
     }
-    const Json table{{"title", "Comparison"},
+    const Json table{{"title", "Comparison" + sweep.name.substr(std::string("comparison").size())},
                      {"columns", Json::array({{{"dataset", dataset}, {"metrics", names}}})},
                      {"rows", rows}};
     sweep.tables = Json{{id, table}}.dump();  // JSON is YAML
@@ -244,7 +244,11 @@ fs::path found(const fs::path& path) {
 /// A folder that holds something else would lose it, or be taken for the comparison.
 void refuse_other_than_comparisons(const fs::path& out) {
     refuse_other_folders(out);
-    if (!fs::exists(out / "results.json")) return;
+    if (!fs::exists(out / "results.json")) {
+        if (fs::exists(out / "report.html"))
+            throw Error("{}: holds a report.html, and no comparison; choose another -o", out.string());
+        return;
+    }
     const auto name = loose::text(loose::read(out / "results.json"), "sweep");
     if (!name.starts_with(comparison_in))
         throw Error("{}: holds the sweep '{}'; choose another -o", out.string(), name);
@@ -293,7 +297,7 @@ void run(const CompareOptions& options) {
     if (all.empty())
         throw Error("{} and {}: no metric that both have", options.a.string(), options.b.string());
     const auto warnings = warnings_of(a, b);
-    add_table(sweep, all);
+    add_table(sweep, all, out);
     reports::write_results(sweep, plan, out);
     write_report(
         {.folders = {out}, .out = out / "report.html", .title = "A comparison", .filled_only = true});

@@ -66,7 +66,7 @@ class WorkFolder {
             path_ = temporary_.emplace("score").path();
             return;
         }
-        path_ = out.string() + ".work";
+        path_ = output_at(out).file.string() + ".work";
         kept_.emplace(
             [this, &out] {
                 lock_ = FileLock::on_folder_if_free(path_);

@@ -145,6 +145,8 @@ std::unique_ptr<MotionSource> open_motions(const fs::path& file, MotionsFileOpti
 }
 
 MotionSet motions_in(const fs::path& file, const MotionsFileOptions& options) {
+    if (fs::exists(file) && !fs::is_regular_file(file))
+        throw Error("{}: is no file; a file of motions (.h5) is expected", file.string());
     if (!fs::is_regular_file(file))
         throw Error("{}: no such file of motions{}", file.string(), did_you_mean(file));
     auto key = checksum_file(file);

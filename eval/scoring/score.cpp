@@ -268,13 +268,13 @@ class Sides {
 Json provenance_of_motions(const ScoreMotions& request, const Sides& sides, const std::string& device) {
     const auto& dataset = sides.dataset();
     const auto recogniser = [](const FeatureExtractor& extractor) {
-        return Json{{"path", extractor.weights().string()}, {"checksum", extractor.checksum()}};
+        return Json{{"path", printable(extractor.weights().string())}, {"checksum", extractor.checksum()}};
     };
     Json out{{"version", ACTFORMER_VERSION}};
     if (sides.whole()) out["recogniser"] = recogniser(*sides.whole());
     if (sides.single()) out["single_recogniser"] = recogniser(*sides.single());
     out["real"] = {{"dataset", dataset.header().name},
-                   {"path", request.real.dataset.string()},
+                   {"path", printable(request.real.dataset.string())},
                    {"fingerprint", dataset.fingerprint()},
                    {"split", request.real.split},
                    {"window", request.real.window}};
@@ -283,7 +283,7 @@ Json provenance_of_motions(const ScoreMotions& request, const Sides& sides, cons
     out["generated"] = Json::array();
     for (std::size_t i = 0; i < request.generated.size(); ++i) {
         const auto& set = request.generated[i];
-        Json one{{"name", set.name}, {"key", set.key}, {"view", sides.views()[i]}};
+        Json one{{"name", printable(set.name)}, {"key", set.key}, {"view", sides.views()[i]}};
         if (set.seed) one["seed"] = *set.seed;
         out["generated"].push_back(one);
     }
@@ -332,7 +332,7 @@ Scored score_features(const ScoreFeatures& request) {
         real, std::move(classes), files.size(),
         [&](std::size_t i) {
             const auto& path = request.generated[i];
-            checksums.push_back({{"name", path.string()}, {"key", checksum_file(path)}});
+            checksums.push_back({{"name", printable(path.string())}, {"key", checksum_file(path)}});
             widen(files[i].samples, real.samples.classes);
             return observed(files[i], path.string());
         },
@@ -341,7 +341,7 @@ Scored score_features(const ScoreFeatures& request) {
     out.json = to_json(out.report);
     out.json["provenance"] = {
         {"version", ACTFORMER_VERSION},
-        {"real", {{"path", request.real.string()}, {"checksum", checksum_file(request.real)}}},
+        {"real", {{"path", printable(request.real.string())}, {"checksum", checksum_file(request.real)}}},
         {"generated", checksums},
         {"seed", request.options.seed}};
     return out;

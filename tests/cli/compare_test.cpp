@@ -75,8 +75,7 @@ TEST_F(Compare, TakesDifferencesSeedBySeed) {
 
     const auto report = run_actformer("report " + at("out") + " --json");
     const auto first = Json::parse(report.output.substr(report.output.find('{')))["tables"][0];
-    EXPECT_EQ(first["id"], "comparison-in-out");
-    EXPECT_EQ(first["title"], "Comparison");
+    EXPECT_EQ(first["title"], "Comparison in out");
     EXPECT_EQ(first["rows"][1]["name"], "B, weights-last.h5 of other");
     EXPECT_NE(read_file(dir / "out/report.html").find("B, weights-last.h5 of other"), std::string::npos);
 }
@@ -88,7 +87,9 @@ TEST_F(Compare, StaysOutOfOtherFolders) {
     expect_refused(compare("one", "other", "data"), {"/data: holds a dataset", "another -o"});
     write_file(dir / "swept/results.json", "{\"format\": 1, \"sweep\": \"mini\", \"rows\": []}");
     expect_refused(compare("one", "other", "swept"), {"/swept: holds the sweep 'mini'", "another -o"});
-    for (const auto* name : {"one/jobs", "one/results.json", "data/results.json", "swept/jobs"})
+    write_file(dir / "mine/report.html", "mine");
+    expect_refused(compare("one", "other", "mine"), {"/mine: holds a report.html", "another -o"});
+    for (const auto* name : {"mine/jobs", "one/jobs", "one/results.json", "data/results.json", "swept/jobs"})
         EXPECT_FALSE(fs::exists(dir / name)) << name;
 }
 
@@ -98,8 +99,8 @@ TEST_F(Compare, TwoOfThemStandInOneReport) {
         run_actformer("report " + at("first") + " " + at("second") + " -o " + at("both.html") + " --json");
     ASSERT_EQ(report.exit, 0) << report.output;
     const auto tables = Json::parse(report.output.substr(report.output.find('{')))["tables"];
-    EXPECT_EQ(tables[0]["id"], "comparison-in-first");
-    EXPECT_EQ(tables[1]["id"], "comparison-in-second");
+    EXPECT_EQ(tables[0]["title"], "Comparison in first");
+    EXPECT_EQ(tables[1]["title"], "Comparison in second");
 }
 
 TEST_F(Compare, ADeviceThatIsNotThereComesWithTheOptionToGive) {
