@@ -23,7 +23,8 @@ fs::path nearest_entry(const fs::path& missing) {
     const auto folder = missing.has_parent_path() ? missing.parent_path() : fs::path(".");
     for (fs::directory_iterator at(folder, ignored), end; !ignored && at != end && names.size() < most;
          at.increment(ignored))
-        if (auto other = at->path().filename().string(); other.starts_with(name.substr(0, sure)))
+        if (auto other = at->path().filename().string();
+            other != name && other.starts_with(name.substr(0, sure)))
             names.push_back(std::move(other));
     const auto nearest = nearest_word(name, names);
     return nearest.empty() ? fs::path{} : missing.parent_path() / nearest;

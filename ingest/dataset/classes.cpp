@@ -35,7 +35,8 @@ std::optional<std::uint32_t> named(const std::string& said, const std::vector<st
 
 std::uint32_t label_called(const std::string& said, const std::vector<std::string>& classes,
                            const std::string& where) {
-    if (const auto label = named(said, classes)) return *label;
+    for (const auto& written : {said, printable(said)})  // as ingest writes names that are no UTF-8
+        if (const auto label = named(written, classes)) return *label;
     const auto number = number_in(said);
     if (number && *number >= 1 && (classes.empty() || *number <= classes.size())) return *number - 1;
     const auto shown = in_quotes(said);

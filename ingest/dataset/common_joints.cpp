@@ -80,13 +80,17 @@ void write_limbs(const Positions& positions, std::size_t frame, std::size_t pers
 
 }  // namespace
 
-CommonJoints::CommonJoints(BodyModel body, const std::string& where) : body_(std::move(body)) {
-    const auto* places = places_in(body_.topology);
-    if (!places)
+void expect_common_joints(const Topology& topology, const std::string& where) {
+    if (!places_in(topology))
         throw Error(
             "{}: its {} joints are not those of NTU RGB+D, GTA Combat or SMPL, which alone can be seen as 15 "
             "common joints",
-            where, body_.topology.joints());
+            where, topology.joints());
+}
+
+CommonJoints::CommonJoints(BodyModel body, const std::string& where) : body_(std::move(body)) {
+    expect_common_joints(body_.topology, where);
+    const auto* places = places_in(body_.topology);
     if (body_.representation == Representation::limb && body_.bone_length.empty())
         throw Error("{}: without limb lengths its joints cannot be told; write it again with this program",
                     where);

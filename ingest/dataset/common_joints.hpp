@@ -14,6 +14,9 @@ enum class Joints {
     common15  ///< as CommonJoints has them
 };
 
+/// Throws Error, naming `where`, for skeletons of which nobody knows which joints are the common ones.
+void expect_common_joints(const Topology& topology, const std::string& where);
+
 class CommonJoints {
   public:
     /// For motions of `body`. Throws Error, beginning with `where`, where its joints are not those of ntu25(), smpl24(), gta22() or

@@ -108,8 +108,9 @@ std::vector<std::string> Dataset::split_names() const {
 }
 
 std::vector<std::size_t> Dataset::split(const std::string& name) const {
-    const auto found = std::find_if(header_.splits.begin(), header_.splits.end(),
-                                    [&](const Split& split) { return split.name == name; });
+    const auto found = std::find_if(header_.splits.begin(), header_.splits.end(), [&](const Split& split) {
+        return split.name == name || split.name == printable(name);
+    });
     if (found == header_.splits.end() && name != "all") {
         const auto known = split_names();
         auto remedy = suggestion(name, known);

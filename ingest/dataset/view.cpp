@@ -28,6 +28,8 @@ Representation representation_of(const Dataset& dataset, Joints joints) {
 }
 
 const Topology& topology_of(const Dataset& dataset, Joints joints) {
+    if (joints == Joints::common15)
+        expect_common_joints(dataset.header().topology, dataset.folder().string());
     return topology_seen(dataset.header().topology, joints);
 }
 

@@ -81,7 +81,9 @@ PaperTable empty_table(const Rows& rows, std::size_t number) {
     PaperTable out;
     out.id = fmt::format("rows{}", number);
     out.title = fmt::format("Rows on {}", rows[0]->dataset);
-    out.caption = fmt::format("All that was scored by one recogniser, split {}{}", rows[0]->split,
+    const auto by = loose::text(rows[0]->settings, "recogniser");
+    out.caption = fmt::format("All that was scored by {}, split {}{}",
+                              by.empty() ? "one recogniser" : "the recogniser " + by, rows[0]->split,
                               in_windows(window_of(*rows[0])));
     out.source = fmt::format(
         "Sweep {}: means and their 95 % intervals, over seeds where several were trained", rows[0]->sweep);
