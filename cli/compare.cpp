@@ -229,7 +229,7 @@ void add_table(reports::Sweep& sweep, const std::vector<Compared>& all, const fs
         rows[row.name] = Json::object();
         row.fills = {id + "/" + row.name + "/" + dataset};
     }
-    const Json table{{"title", "Comparison" + sweep.name.substr(std::string("comparison").size())},
+    const Json table{{"title", "Comparison in " + last_part(out)},
                      {"columns", Json::array({{{"dataset", dataset}, {"metrics", names}}})},
                      {"rows", rows}};
     sweep.tables = Json{{id, table}}.dump();  // JSON is YAML

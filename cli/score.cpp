@@ -62,11 +62,12 @@ struct ScoreOptions {
 class WorkFolder {
   public:
     explicit WorkFolder(const fs::path& out) {
-        if (out.empty() || output_at(out).stream) {
+        const auto output = out.empty() ? Output{{}, true} : output_at(out);
+        if (output.stream) {
             path_ = temporary_.emplace("score").path();
             return;
         }
-        path_ = output_at(out).file.string() + ".work";
+        path_ = output.file.string() + ".work";
         kept_.emplace(
             [this, &out] {
                 lock_ = FileLock::on_folder_if_free(path_);
