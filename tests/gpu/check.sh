@@ -20,6 +20,7 @@ OUT=$(realpath -m "${OUT:-$WORK}")
 PYTHON=${PYTHON:-python3}             # has torch, and h5py and NumPy to compare features
 PEERS=${PEERS:-../shared/reference}   # holds actformer_speed.py and stgcn.py, to be compared with
 STEP=${STEP:-}                        # seconds of the full-size training: 300, in a rehearsal 10
+ONLY=${ONLY:-}                        # of check's steps those whose names match, as in 'synth|ingest|train-.*'; list names them
 prefix=$WORK/prefix logs=$WORK/logs run=$WORK/run
 own_build=${BUILD:+no}                # BUILD: a build that is there already
 BUILD=$(realpath -m "${BUILD:-$WORK/build}")
@@ -90,6 +91,7 @@ step() { # name seconds command...
     local name=$1 limit=$2 from=$EPOCHREALTIME said debugger
     shift 2
     code=0
+    [[ -z $ONLY || $name =~ ^($ONLY|unpack|build|version|devices)$ ]] || return 0
     if [ "$listing" = yes ]; then printf '%-32s %5s s  %s\n' "$name" "$limit" "$*"; return; fi
     timeout --kill-after=20 "$limit" "$@" >"$logs/$name.out" 2>"$logs/$name.err" || code=$?
     [ "$code" != "${fine:-0}" ] || code=0
