@@ -5,6 +5,7 @@ usage: figures.py write LOGS RUN DEVICE       its figures, from the logs of its 
        figures.py same LOG LOG                whether two trainings had the same losses to the last bit
        figures.py agreement FEATURES.h5...    how far features lie apart; fails where it is more than a thousandth of the largest
 """
+import importlib.util
 import json
 import os
 import pathlib
@@ -39,13 +40,18 @@ def gpu():
     return dict(zip(('gpu', 'driver', 'memory'), said.stdout.splitlines()[0].split(', ')))
 
 
+def torch_versions():
+    """PyTorch's and its CUDA's, from its file of versions: importing it takes seconds, and this is asked after every step."""
+    found = importlib.util.find_spec('torch')
+    versions = {}
+    if found:
+        exec((pathlib.Path(found.origin).parent / 'version.py').read_text(), versions)
+    return {'torch': versions.get('__version__'), 'cuda': versions.get('cuda')}
+
+
 def machine(logs, device):
     out = {'gpu': None, 'driver': None, 'processors': os.cpu_count(), 'device': device, **gpu()}
-    try:
-        import torch
-        out.update(torch=torch.__version__, cuda=torch.version.cuda)
-    except ImportError:
-        out.update(torch=None, cuda=None)
+    out.update(torch_versions())
     out['program'] = text(logs / 'version.out').splitlines()
     out['opencl'] = [{key: d[key] for key in ('name', 'type', 'driver')} for d in read_with(parsed, logs / 'devices.out') or []]
     return out
