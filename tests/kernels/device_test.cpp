@@ -111,3 +111,11 @@ TEST(ProgramCache, BuildsOncePerSourceAndOptions) {
     EXPECT_NE(cache.get(source + " ", "f.cl", "-DN=1")(), first());
     EXPECT_EQ(cache.size(), 3U);
 }
+
+TEST(ProgramCache, PrintsNoWarnings) {
+    const kernels::Device device;
+    kernels::ProgramCache cache(device.context(), device.handle());
+    testing::internal::CaptureStderr();
+    cache.get("#warning doubtful\nkernel void f(global int* x) { int unused; x[0] = 1; }", "f.cl", "");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
