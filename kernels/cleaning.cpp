@@ -64,9 +64,10 @@ LimbRows fill_and_smooth(Device& device, const ClipBatch& batch, const FrameTabl
 
     const Buffer<float> taps(device, gaussian(how));
     const Buffer<cl_uint2> blocks(device, blocks_of(batch));
-    const auto vec = how.vec != 0                  ? how.vec
-                     : device.info().type == "CPU" ? 16U
-                                                   : 4U;  // times 8 frames in registers
+    const auto vec = how.vec != 0                       ? how.vec
+                     : device.info().type != "CPU"      ? 4U  // times 8 frames in registers
+                     : device.info().vector_width >= 16 ? 16U
+                                                        : 8U;
     const auto columns = chunks * 16 / vec;
     LimbRows out{Buffer<float>(device, rows * chunks * 16), chunks * 16};
     const auto count = static_cast<std::uint32_t>(blocks.size());

@@ -52,7 +52,15 @@ DeviceInfo describe(const cl::Device& device, std::size_t index) {
     info.memory = device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
     info.max_allocation = device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
     info.shares_memory = device.getInfo<CL_DEVICE_HOST_UNIFIED_MEMORY>() != 0;
+    info.vector_width = device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
     return info;
+}
+
+std::vector<DeviceInfo> described(const std::vector<cl::Device>& devices) {
+    std::vector<DeviceInfo> out;
+    out.reserve(devices.size());
+    for (const auto& device : devices) out.push_back(describe(device, out.size()));
+    return out;
 }
 
 std::string names_of(const std::vector<DeviceInfo>& devices) {
@@ -73,11 +81,7 @@ std::size_t default_device(const std::vector<DeviceInfo>& devices) {
 }  // namespace
 
 std::vector<DeviceInfo> list_devices() {
-    const auto devices = raw_devices();
-    std::vector<DeviceInfo> out;
-    out.reserve(devices.size());
-    for (const auto& device : devices) out.push_back(describe(device, out.size()));
-    return out;
+    return described(raw_devices());
 }
 
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view wish) {
@@ -111,7 +115,8 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_vi
 
 Device::Device(std::string_view wish) {
     const auto devices = raw_devices();
-    const auto known = list_devices();
+    const auto known =
+        described(devices);  // asked a second time there may be others, as where memory is short
     info_ = known[choose_device(known, wish)];
     device_ = devices.at(info_.index);
     try {

@@ -25,6 +25,7 @@ struct DeviceInfo {
     std::uint64_t memory = 0;          ///< bytes
     std::uint64_t max_allocation = 0;  ///< bytes of the largest single buffer
     bool shares_memory = false;        ///< with the host
+    std::uint32_t vector_width = 0;    ///< floats in a register
 };
 
 /// Every OpenCL device, in the order that --device numbers them. Empty without an OpenCL driver.

@@ -65,8 +65,7 @@ std::vector<double> RestJoints::shaped(std::span<const float> betas) const {
 /// Sums of 24 vectors, 2 of features and a number of P fill the 32 vector registers of AVX-512; 12 sums the 16 of AVX2.
 SkinningTiles skinning_tiles(const Device& device) {
     if (device.info().type != "CPU") return {4, 4, 1, 1, 64, 64};
-    const auto width = device.handle().getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT>();
-    if (width >= 16) return {16, 4, 2, 32, 32, 1};
+    if (device.info().vector_width >= 16) return {16, 4, 2, 32, 32, 1};
     return {8, 2, 2, 64, 16, 1};
 }
 

@@ -4,7 +4,13 @@ namespace actformer::kernels {
 
 Tiles default_tiles(const DeviceInfo& device) {
     Tiles tiles;
-    if (device.type == "CPU") return tiles;
+    if (device.type == "CPU") {
+        if (device.vector_width >= 16) return tiles;
+        tiles.vec = tiles.filter_vec = 8;  // for AVX2's 16 registers of 8: 12 hold sums
+        tiles.rows = 6;
+        tiles.vectors = 2;
+        return tiles;
+    }
     tiles.vec = 4;
     tiles.filter_vec = 1;
     tiles.rows = 8;

@@ -30,7 +30,7 @@ struct Memory : testing::Test {
     void SetUp() override {
         const kernels::Device device;
         if (device.info().type != "CPU") GTEST_SKIP() << "the limit is of the host's memory";
-        auto tiles = default_tiles(device.info());
+        kernels::Tiles tiles;  // of vectors of 16, whatever the processor has
         tiles.sequences = 65536;
         ::setenv("XDG_CACHE_HOME", dir.path().c_str(), 1);
         eval::save_tiles(device.info(), tiles);
