@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "base/error.hpp"
 #include "base/process/interruption.hpp"
 #include "base/text/printable.hpp"
 #include "base/text/suggestion.hpp"
@@ -73,6 +74,14 @@ void keep_freed_memory() {
 
 namespace {
 
+/// What is wrong with the words, and where help is.
+std::string refusal(const CLI::App& app, int argc, char** argv, const CLI::ParseError& error) {
+    const auto unknown = unknown_word(app, argc, argv);
+    auto help = app.get_name();
+    for (int i = 1; i < command_named(app, argc, argv).second; ++i) help += fmt::format(" {}", argv[i]);
+    return fmt::format("{} (see {} --help)", unknown.empty() ? printable(error.what()) : unknown, help);
+}
+
 int parse(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) {
     CLI::App app{"From raw motion capture to a published table."};
     app.name("actformer");
@@ -88,14 +97,15 @@ int parse(int argc, char** argv, const std::function<void(CLI::App&)>& add_comma
     } catch (const CLI::Success& e) {
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
-        const auto unknown = unknown_word(app, argc, argv);
-        auto help = app.get_name();
-        for (int i = 1; i < command_named(app, argc, argv).second; ++i) help += fmt::format(" {}", argv[i]);
-        fmt::print(stderr, "actformer: {} (see {} --help)\n", unknown.empty() ? printable(e.what()) : unknown,
-                   help);
+        fmt::print(stderr, "actformer: {}\n", refusal(app, argc, argv, e));
         return 1;
     }
     return 0;
+}
+
+void do_nothing(CLI::App& app) {
+    app.callback({});
+    for (auto* command : app.get_subcommands([](const CLI::App*) { return true; })) do_nothing(*command);
 }
 
 /// What was printed must have arrived. Nobody need read it all.
@@ -114,6 +124,28 @@ int failed(const std::string& why) {
 }
 
 }  // namespace
+
+std::string problem_of(std::vector<std::string> words,
+                       const std::function<void(CLI::App&)>& add_commands) try {
+    CLI::App app;
+    app.name("actformer");
+    app.require_subcommand(1);
+    add_commands(app);
+    do_nothing(app);
+    std::vector<char*> arguments;
+    for (auto& word : words) arguments.push_back(word.data());
+    const int count = static_cast<int>(arguments.size());
+    try {
+        app.parse(count, arguments.data());
+    } catch (const CLI::Success&) {
+        return "help is asked for, and nothing done";
+    } catch (const CLI::ParseError& e) {
+        return refusal(app, count, arguments.data(), e);
+    }
+    return {};
+} catch (const Error& e) {
+    return e.what();
+}
 
 int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) try {
     end_in_order();

@@ -162,7 +162,10 @@ void run(SweepOptions options) {
     auto plan = reports::make_plan(sweep, options.file.parent_path(), jobs);
     SweepJobs::check_stand_ins(plan.jobs);
     if (options.only.empty() && !options.status) reports::check_splits(options.file, plan, options.out);
-    if (options.dry_run) SweepJobs::check_trainings(plan.jobs);
+    if (options.dry_run) {
+        SweepJobs::check_trainings(plan.jobs);
+        SweepJobs::check_ingests(plan.jobs);
+    }
     if (!options.only.empty()) {
         const auto status = reports::run_one(sweep, plan, options.only, {options.out, jobs});
         if (status.state != JobState::done) throw Error("{}: {}", options.only, status.why);

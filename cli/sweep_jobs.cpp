@@ -10,6 +10,7 @@
 #include "base/files/scratch.hpp"
 #include "base/process/peer.hpp"
 #include "base/process/process.hpp"
+#include "cli/program.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
 #include "ingest/synth/stand_in.hpp"
@@ -158,6 +159,21 @@ void SweepJobs::check_stand_ins(std::vector<Job>& jobs) {
         else if (!work->actions.empty() && work->format != known[0])
             job.problem = fmt::format("actions: clips of format '{}' are of all its actions; leave it out",
                                       work->format);
+    }
+}
+
+void SweepJobs::check_ingests(std::vector<Job>& jobs) {
+    for (auto& job : jobs) {
+        const auto* work = std::get_if<IngestWork>(&job.work);
+        if (!work) continue;
+        for (auto words : Commands{}(*work)) {
+            std::ranges::replace(words, work->synthetic, ".");  // what is not made yet
+            if (job.problem.empty())
+                job.problem = problem_of(words, [](CLI::App& app) {
+                    add_synth(app);
+                    add_ingest(app);
+                });
+        }
     }
 }
 

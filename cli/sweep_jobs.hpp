@@ -26,6 +26,9 @@ class SweepJobs : public reports::JobRunner {
     /// Synthetic clips that `actformer synth` cannot make become their job's problem.
     static void check_stand_ins(std::vector<reports::Job>& jobs);
 
+    /// A dataset whose `arguments` or `actions` its commands would refuse gets that for its problem.
+    static void check_ingests(std::vector<reports::Job>& jobs);
+
   private:
     /// The commands one after another, with all paths put in.
     std::vector<std::vector<std::string>> commands(const reports::Job& job) const;

@@ -47,7 +47,6 @@ std::vector<int> parse_actions(std::string_view all) {
 
 struct Arguments {
     NtuOptions options;
-    std::string actions;
     bool json = false;
 };
 
@@ -84,7 +83,6 @@ void run(const Options& options, bool json, Make make) {
 }
 
 void synth_ntu(Arguments& a) {
-    a.options.actions = parse_actions(a.actions);
     run(a.options, a.json, [&](auto progress) { return synthesise_ntu(a.options, progress); });
 }
 
@@ -97,7 +95,9 @@ void add_ntu(CLI::App* synth) {
         ->capture_default_str();
     command->add_option("--seed", a->options.seed, "Random seed: another one gives other performances")
         ->capture_default_str();
-    command->add_option("--actions", a->actions, "Only these, as in 1,2,50-60 (default: all 120)");
+    command->add_option_function<std::string>(
+        "--actions", [a](const std::string& all) { a->options.actions = parse_actions(all); },
+        "Only these, as in 1,2,50-60 (default: all 120)");
     command
         ->add_option("--threads", a->options.threads,
                      "How many clips are made at once (default: one a processor)")

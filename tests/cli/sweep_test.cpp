@@ -246,7 +246,12 @@ TEST_F(Sweep, RefusesDatasetsThatCannotBeMade) {
     for (const auto& [dataset, why] :
          {std::pair{"{format: motions, clips: 10}",
                     "synth makes no clips of format 'motions'; it makes ntu, "},
-          {"{format: babel, clips: 10, actions: 1-3}", "actions: clips of format 'babel'"}}) {
+          {"{format: babel, clips: 10, actions: 1-3}", "actions: clips of format 'babel'"},
+          {"{format: ntu, clips: 10, actions: 1-500}", "--actions 1-500: '1-500' is outside 1 to 120"},
+          {"{format: ntu, clips: 10, arguments: [--treads, '2']}",
+           "there is no option '--treads'; did you mean --threads? (see actformer ingest ntu --help)"},
+          {"{format: bvh, raw: [.], arguments: [--threads, many]}", "--threads: "},
+          {"{format: bvh, raw: [.], arguments: [--help]}", "help is asked for"}}) {
         const auto result = with(dataset);
         EXPECT_EQ(result.exit, 1) << dataset;
         EXPECT_NE(result.output.find(why), std::string::npos) << result.output;
