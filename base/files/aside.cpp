@@ -235,13 +235,13 @@ void Aside::check() const {
     if (!failure_.empty()) throw Error("{}", failure_);
 }
 
-void Aside::need_file() const {
-    if (output_.stream)
-        throw Error(
-            "{}: cannot be written: it is a device or a FIFO, and such a file is not written from its "
-            "beginning "
-            "to its end; give a file name",
-            path_.string());
+void Aside::need_file() {
+    if (!output_.stream) return;
+    failure_ = fmt::format(
+        "{}: cannot be written: it is a device or a FIFO, and such a file is not written from its beginning "
+        "to its end; give a file name",
+        path_.string());
+    throw Error("{}", failure_);
 }
 
 void Aside::fail() {

@@ -56,7 +56,7 @@ class Aside {
     void put(std::string_view bytes);
     void flush();
     void write_blocks_directly(std::string_view& bytes);
-    void need_file() const;
+    void need_file();
     [[noreturn]] void fail();
 
     std::filesystem::path path_;

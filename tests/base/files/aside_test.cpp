@@ -166,6 +166,13 @@ TEST(Aside, LeavesDevicesAndFifosAlone) {
     EXPECT_EQ(files_in(dir.path()), 1U);
 }
 
+TEST(Aside, KeepsThatADeviceIsNotForIt) {
+    Aside file("/dev/null");
+    const auto why = error_of([&] { file.size(); });
+    EXPECT_TRUE(says(why, "/dev/null: cannot be written: it is a device or a FIFO"));
+    EXPECT_EQ(error_of([&] { file.check(); }), why) << "for a library between that swallows it";
+}
+
 TEST(Aside, KeepsItsFailure) {
     Aside file("/dev/full");
     file.write("text");
