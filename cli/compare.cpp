@@ -104,6 +104,7 @@ reports::SweepRow side(const char* letter, const fs::path& path, const fs::path&
 reports::Sweep comparison(const CompareOptions& options) {
     reports::Sweep sweep;
     sweep.name = comparison_in + last_part(options.out);
+    sweep.comparison = true;
     sweep.datasets[last_part(options.real)].path = options.real.string();
     sweep.recognisers["recogniser"].weights = options.recogniser.string();
     sweep.rows = {side("A", options.a, options.b, options), side("B", options.b, options.a, options)};
@@ -331,7 +332,10 @@ void add_compare(CLI::App& app) {
         ->check(CLI::Range(1, 4096))
         ->capture_default_str();
     add_device_option(command, options->device);
-    command->add_option("-o,--out", options->out, "Folder of scores, features and report.html")
+    command
+        ->add_option("-o,--out", options->out,
+                     "Folder of scores, features and report.html, whose viewer shows real motions, A's and "
+                     "B's together")
         ->required()
         ->type_name("DIR");
     command->add_flag("--json", options->json, "Print JSON");

@@ -195,11 +195,8 @@ class Details {
 
   private:
     Json row_json(const MeasuredRow& row) {
-        Json out{{"name", row.name},
-                 {"sweep", row.sweep},
-                 {"fills", Json::array()},
-                 {"status", row.status},
-                 {"why", row.why}};
+        Json out{{"name", row.name},       {"sweep", row.sweep},   {"compared", compared_with(row)},
+                 {"fills", Json::array()}, {"status", row.status}, {"why", row.why}};
         for (const auto& cell : row.fills) out["fills"].push_back(cell_in_words(cell, measured_.tables));
         const auto* run = row.shown();
         static const Json none;
@@ -213,6 +210,14 @@ class Details {
         attempt(row, "features", [&] { add_points(out, *run, classes); });
         attempt(row, "motions", [&] { add_motions(out, row, *run, classes); });
         return out;
+    }
+
+    /// Places of the rows of its comparison, itself among them; none where it is of no comparison.
+    std::vector<std::size_t> compared_with(const MeasuredRow& row) const {
+        std::vector<std::size_t> places;
+        for (std::size_t i = 0; row.comparison && i < measured_.rows.size(); ++i)
+            if (measured_.rows[i].comparison == row.comparison) places.push_back(i);
+        return places;
     }
 
     /// What cannot be read is told of, and the rest goes on.

@@ -169,15 +169,18 @@ const MeasuredRun* MeasuredRow::trained() const {
 
 Measured read_measured(const std::vector<fs::path>& folders) {
     Measured out;
-    for (const auto& folder : folders) {
+    for (std::size_t i = 0; i < folders.size(); ++i) {
+        const auto& folder = folders[i];
         if (auto row = training_row(folder)) {
             add_training(std::move(*row), folder, out.rows);
             continue;
         }
         const auto json = read_results(folder);
         add_own_tables(out.tables, json, folder);
-        for (const auto& row : objects(json, "rows"))
+        for (const auto& row : objects(json, "rows")) {
             out.rows.push_back(read_row(row, loose::text(json, "sweep"), fs::absolute(folder), out.notices));
+            if (loose::member(json, "comparison") == Json(true)) out.rows.back().comparison = i;
+        }
     }
     return out;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct MeasuredRun {
 
 struct MeasuredRow {
     std::string sweep, name, status, why;
+    std::optional<std::size_t>
+        comparison;                  ///< the place of its folder among those read, if that is of a comparison
     std::vector<std::string> fills;  ///< cells, see find_cell()
     std::string dataset, split;
     std::string data;                 ///< in plain words, what `dataset` is

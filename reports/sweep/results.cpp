@@ -123,6 +123,7 @@ std::vector<JobStatus> statuses(const Plan& plan, const fs::path& out) {
 nlohmann::ordered_json results(const Sweep& sweep, const Plan& plan, const fs::path& out) {
     const auto status = statuses(plan, out);
     Json json{{"format", 1}, {"sweep", sweep.name}, {"version", ACTFORMER_VERSION}, {"rows", Json::array()}};
+    if (sweep.comparison) json["comparison"] = true;
     if (!sweep.tables.empty()) json["tables"] = sweep.tables;
     for (const auto& planned : plan.rows) {
         const auto& row = *planned.row;

@@ -1,7 +1,7 @@
 // What a sweep leaves behind, and how far it is.
 //
 //   OUT/results.json            written anew whenever a job ends, whole or not at all; what a report is made of:
-//     {"format": 1, "sweep": name, "version": .., "tables": of its own, YAML as in the sweep's file, "rows": [
+//     {"format": 1, "sweep": name, "version": .., "comparison": true of one, "tables": of its own, YAML as in the sweep's file, "rows": [
 //        {"name", "status": "done" | "failed" | "waiting", "why": of a failure,
 //         "fills": ["table3/full/NTU-1P", ..], "dataset": the sweep's name of it, "data": {"synthetic":
 //         clips, "seed"} or {"raw": [files]} or {"path"}, "split", "settings": {key: value},

@@ -48,6 +48,7 @@ struct Sweep {
     std::map<std::string, SweepDataset> datasets;
     std::map<std::string, SweepRecogniser> recognisers;
     std::vector<SweepRow> rows;
+    bool comparison = false;  ///< its rows are the two sides of `actformer compare`; files do not say it
 };
 
 /// Reads

@@ -21,6 +21,8 @@ namespace {
 /// A sweep of one dataset of two-person clips and one of single ones, whose "generated" motions are clips of other splits; made
 /// once. One row fails, one has a name that means harm.
 struct Swept {
+    static constexpr const char* other_motions =
+        " as another generator might have made it, with a name that is long.h5";
     TempDir dir;
 
     Swept() {
@@ -33,6 +35,7 @@ struct Swept {
                                       eval::random_stgcn_weights(3 * dataset.header().persons, classes,
                                                                  eval::ntu_graph(), 0.125, 1));
             write_motions(dataset, std::string(name) + ".h5");
+            write_motions(dataset, std::string(name) + other_motions, 1);
         }
         write_file(dir / "sweep.yaml", sweep_yaml());
         run_actformer("sweep " + at("sweep.yaml") + " -o " + at("out"));
@@ -40,12 +43,15 @@ struct Swept {
     std::string at(const std::string& name) const { return (dir / name).string(); }
 
   private:
-    /// Every clip as a motion of its class, in the public layout with the body that it belongs to.
-    void write_motions(const ingest::Dataset& dataset, const std::string& file) const {
+    /// Every clip as a motion of its class, in the public layout with the body that it belongs to; or the motion of the clip `ahead`
+    /// of it.
+    void write_motions(const ingest::Dataset& dataset, const std::string& file, std::size_t ahead = 0) const {
+        const auto& clips = dataset.clips();
         ingest::MotionsWriter writer(dir / file);
         writer.describe(ingest::subjects_of(dataset));
-        for (std::size_t i = 0; i < dataset.clips().size(); ++i)
-            writer.add(fmt::format("A{:03}_{}", dataset.clips()[i].label + 1, i), dataset.motion(i));
+        for (std::size_t i = 0; i < clips.size(); ++i)
+            writer.add(fmt::format("A{:03}_{}", clips[i].label + 1, i),
+                       dataset.motion((i + ahead) % clips.size()));
         writer.finish();
     }
     std::string sweep_yaml() const {
@@ -80,6 +86,17 @@ struct ReportPage : testing::Test {
     std::string at(const std::string& name) const { return (dir / name).string(); }
     CommandResult report(const std::string& arguments) const {
         return run_actformer("report " + swept().at("out") + " " + arguments);
+    }
+    CommandResult in_browser(const std::string& page, const std::string& options = "") const {
+        return run_command("/usr/bin/python3 " + source("tests/reports/page/report_test.py") + " " +
+                           at(page) + options);
+    }
+    /// What the page's scripts draw.
+    nlohmann::json data_in(const std::string& page) const {
+        const auto html = read_file(dir / page);
+        const std::string begin = "id=\"data\">";
+        const auto from = html.find(begin) + begin.size();
+        return nlohmann::json::parse(html.substr(from, html.find("</script>", from) - from));
     }
 };
 
@@ -151,12 +168,9 @@ TEST_F(ReportPage, ShowsTheCurvesOfATrainingThatGoesOn) {
     const auto page = [&] {
         const auto result = run_actformer("report " + at("mine") + "/ -o " + at("r.html"));
         EXPECT_EQ(result.exit, 0) << result.output;
-        const auto html = read_file(dir / "r.html");
-        EXPECT_EQ(html.find("Table 1"), std::string::npos) << "no table of the paper was asked for";
-        const std::string begin = "id=\"data\">";
-        const auto from = html.find(begin);
-        return nlohmann::json::parse(
-            html.substr(from + begin.size(), html.find("</script>", from) - from - begin.size()));
+        EXPECT_EQ(read_file(dir / "r.html").find("Table 1"), std::string::npos)
+            << "no table of the paper was asked for";
+        return data_in("r.html");
     };
     {
         const auto held = FileLock::if_free(training / "lock");
@@ -237,8 +251,25 @@ TEST_F(ReportPage, RefusesWhatIsNoSweepAndSaysWhy) {
 
 TEST_F(ReportPage, WorksInABrowser) {
     ASSERT_EQ(report("-o " + at("r.html")).exit, 0);
-    const auto result =
-        run_command("/usr/bin/python3 " + source("tests/reports/page/report_test.py") + " " + at("r.html"));
+    const auto result = in_browser("r.html");
+    if (result.exit == 77) GTEST_SKIP() << result.output;
+    EXPECT_EQ(result.exit, 0) << result.output;
+}
+
+TEST_F(ReportPage, OfAComparisonShowsBothSidesBesideRealMotions) {
+    const auto& files = swept();
+    const auto made = run_command(program() + " compare " + files.at("ntu-1p.h5") + " '" +
+                                  files.at(std::string("ntu-1p") + Swept::other_motions) + "' --recogniser " +
+                                  files.at("ntu-1p-recogniser.h5") + " --real " + files.at("data/ntu-1p") +
+                                  " -o " + at("compared"));
+    ASSERT_EQ(made.exit, 0) << made.output;
+    ASSERT_EQ(report(at("compared") + " -o " + at("r.html")).exit, 0);
+    const auto rows = data_in("r.html")["rows"];
+    ASSERT_EQ(rows.size(), 6);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        EXPECT_EQ(rows[i]["compared"].dump(), i < 4 ? "[]" : "[4,5]")
+            << "the sweep's rows stand by themselves";
+    const auto result = in_browser("compared/report.html", " --comparison");
     if (result.exit == 77) GTEST_SKIP() << result.output;
     EXPECT_EQ(result.exit, 0) << result.output;
 }

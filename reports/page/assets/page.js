@@ -39,10 +39,19 @@ function showRun() {
 
 const actionName = (action) => (action < 0 ? "all actions" : row().classes?.[action] ?? `class ${action + 1}`);
 
+/** The runs whose motions are shown: both sides of a comparison, else the chosen one. */
+const shownRuns = () => (row().compared.length ? row().compared.map((i) => report.rows[i]) : [row()]);
+
+/** What the viewer shows, in words: "4 real and 4 generated motions of run". */
+function motionsInWords(bands) {
+  const [real, ...made] = bands.map(({ name, scenes }) => ({ name, count: scenes.length })), of = actionName(chosen.action);
+  return made.length === 1 ? `${real.count} real and ${made[0].count} generated motions of ${of}`
+    : `Motions of ${of}: ${[`${real.count} real`, ...made.map(({ name, count }) => `${count} of ${name}`)].join("; ")}`;
+}
+
 function showMotions() {
-  const found = data.motionsOf(report, row(), chosen.action, MOST);
-  const scenes = (motions) => motions.map((m) => body.makeScene(m, found.topology));
-  const some = Boolean(found && found.real.length + found.generated.length);
+  const runs = shownRuns(), found = data.motionsOf(report, row(), runs, chosen.action, MOST);
+  const some = Boolean(found?.some(({ motions }) => motions.length));
   byId("stage").hidden = !some;
   byId("motions-missing").hidden = some;
   byId("motions-action").textContent = actionName(chosen.action);
@@ -50,10 +59,12 @@ function showMotions() {
     byId("motions-missing").textContent = found ? "No motion of this action was kept." : "No motions were kept for this run.";
     return;
   }
-  theViewer.show([
-    { name: "Real", scenes: scenes(found.real), empty: "no real motion of this action in the report" },
-    { name: "Generated", scenes: scenes(found.generated), empty: "no generated motion of this action in the report" },
-  ], `${found.real.length} real and ${found.generated.length} generated motions of ${actionName(chosen.action)}`);
+  const names = runs.length > 1 ? runs.map(({ name }) => name) : ["Generated"];
+  const bands = found.map(({ topology, motions }, i) => ({
+    name: ["Real", ...names][i], scenes: motions.map((m) => body.makeScene(m, topology)),
+    empty: `no ${i === 0 ? "real" : "generated"} motion of this action in the report`,
+  }));
+  theViewer.show(bands, motionsInWords(bands));
 }
 
 // --- Charts ---------------------------------------------------------------------------------------

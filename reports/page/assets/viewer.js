@@ -1,4 +1,4 @@
-// The motion viewer: real motions above, generated ones below, in one canvas with one clock and one camera.
+// The motion viewer: real motions above, generated ones of one run or of two below, in one canvas with one clock and one camera.
 const viewer = (() => {
   const { pose, project, sortSolids } = body;
   const { clamp, makePaint, paintBodies, paintFloor, paintShadow } = paint;
@@ -7,21 +7,39 @@ const viewer = (() => {
 
   const START = { azimuth: -0.55, elevation: 0.2, zoom: 1 };
   const BAND = 26, TITLE = 20;  // heights of a band's heading and of a cell's title, pixels
-  /** Cells of both bands: {bands: [{name, y, empty}], cells: [{x, y, width, height, scene}], height}. */
+  const BAND_FONT = "600 14px system-ui, sans-serif", TITLE_FONT = "12px system-ui, sans-serif";
+  /**
+   * Cells of all bands: {bands: [{name, y, empty}], cells: [{x, y, width, height, scene}], height}. Of three bands or more, cells are
+   * so low that a window holds them and the controls, and what it is too narrow for comes below all bands, with their headings again.
+   */
   function layout(sets, width) {
-    const most = Math.max(1, ...sets.map((s) => s.scenes.length));
-    const columns = Math.min(most, width < 560 ? 2 : 4);
-    const cellWidth = width / columns, cellHeight = clamp(cellWidth * 1.05, 190, columns > 2 ? 300 : 360);
+    const most = Math.max(1, ...sets.map((s) => s.scenes.length)), many = sets.length > 2;
+    const columns = Math.min(most, width < 560 ? 2 : 4), part = many ? columns : most;
+    const cellWidth = width / columns, cellHeight = many ? 190 : clamp(cellWidth * 1.05, 190, columns > 2 ? 300 : 360);
     const bands = [], cells = [];
     let y = 0;
-    for (const { name, scenes, empty } of sets) {
-      bands.push({ name, y, empty: scenes.length ? "" : empty });
+    for (let first = 0; first < most; first += part) for (const { name, scenes, empty } of sets) {
+      const here = scenes.slice(first, first + part);
+      if (first && !here.length) continue;
+      bands.push({ name, y, empty: here.length ? "" : empty });
       y += BAND;
-      scenes.forEach((scene, i) => cells.push({ scene, x: (i % columns) * cellWidth,
+      here.forEach((scene, i) => cells.push({ scene, x: (i % columns) * cellWidth,
         y: y + Math.floor(i / columns) * (cellHeight + TITLE), width: cellWidth, height: cellHeight }));
-      y += scenes.length ? Math.ceil(scenes.length / columns) * (cellHeight + TITLE) : 40;
+      y += here.length ? Math.ceil(here.length / columns) * (cellHeight + TITLE) : 40;
     }
     return { bands, cells, height: Math.ceil(y) };
+  }
+
+  /** `words`, or as many letters of their beginning, or of their end, as fit `width` pixels with an ellipsis. */
+  function fitting(context, words, width, end = false) {
+    const letters = [...words];
+    let shown = words;
+    while (letters.length && context.measureText(shown).width > width) {
+      if (end) letters.shift();
+      else letters.pop();
+      shown = end ? `…${letters.join("").replace(/^[\s·]+/, "")}` : `${letters.join("").trimEnd()}…`;
+    }
+    return shown;
   }
 
   /**
@@ -73,6 +91,17 @@ const viewer = (() => {
       this.canvas.width = Math.round(this.width * this.dense);
       this.canvas.height = Math.round(this.place.height * this.dense);
       this.canvas.style.height = `${this.place.height}px`;
+      this.fitWords();
+    }
+
+    /** Headings begin with what tells them apart, titles end with it; these may be set a sixth narrower. */
+    fitWords() {
+      const { context, place } = this;
+      context.setTransform(1, 0, 0, 1, 0, 0);
+      context.font = BAND_FONT;
+      for (const band of place.bands) band.heading = fitting(context, band.name, this.width - 24);
+      context.font = TITLE_FONT;
+      for (const cell of place.cells) cell.title = fitting(context, cell.scene.motion.title, 1.2 * (cell.width - 12), true);
     }
 
     orbit(right, up) {
@@ -128,8 +157,8 @@ const viewer = (() => {
       for (const band of place.bands) {
         context.textAlign = "left";
         context.fillStyle = paint.ink;
-        context.font = "600 14px system-ui, sans-serif";
-        context.fillText(band.name, 12, band.y + BAND / 2 + 2);
+        context.font = BAND_FONT;
+        context.fillText(band.heading, 12, band.y + BAND / 2 + 2);
         context.fillStyle = paint.rule;
         if (band.y) context.fillRect(0, band.y, width, 1);
         context.fillStyle = paint.quiet;
@@ -137,9 +166,9 @@ const viewer = (() => {
         if (band.empty) context.fillText(band.empty, 12, band.y + BAND + 16);
       }
       context.textAlign = "center";
-      context.font = "12px system-ui, sans-serif";
-      for (const { scene, x, y, width: across, height } of place.cells)
-        context.fillText(scene.motion.title, x + across / 2, y + height + TITLE / 2 - 2, across - 12);
+      context.font = TITLE_FONT;
+      for (const { title, x, y, width: across, height } of place.cells)
+        context.fillText(title, x + across / 2, y + height + TITLE / 2 - 2, across - 12);
     }
   }
 

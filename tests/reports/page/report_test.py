@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Opens a report in a real browser and uses it as a reader does: report_test.py REPORT.html [--screenshots DIR].
+"""Opens a report in a real browser and uses it as a reader does: report_test.py REPORT.html [--comparison] [--screenshots DIR].
 
 One line a check. Exit 0: all hold; 1: one does not, named on the last line; 77: there is no browser to ask.
 """
@@ -225,6 +225,73 @@ def check_drag(browser):
     expect(pixels(browser) == before, "a double click does not bring the first view back")
 
 
+def drawn_bands(browser, action):
+    """What the viewer shows of an action: [{heading, right, picture, cells: [{title, x}]}], from the top down."""
+    browser.run("""const context = document.getElementById("viewer").getContext("2d");
+        window.words = [];
+        context.fillText = function (words, x, y, ...rest) {
+            window.words.push({ words, x, y, right: x + this.measureText(words).width, heading: this.textAlign === "left" });
+            CanvasRenderingContext2D.prototype.fillText.call(this, words, x, y, ...rest);
+        };""")
+    choose(browser, "action", action)
+    settled(browser)
+    words = browser.run("""const canvas = document.getElementById("viewer");
+        delete canvas.getContext("2d").fillText;
+        const dense = canvas.width / canvas.clientWidth, all = window.words.sort((a, b) => a.y - b.y || a.x - b.x);
+        const picture = (from, to) => {
+            const part = document.createElement("canvas");
+            part.width = canvas.width;
+            part.height = (to - from) * dense;
+            part.getContext("2d").drawImage(canvas, 0, -from * dense);
+            return part.toDataURL(); };
+        return all.map((one) => {
+            const end = all.find((other) => other.y > one.y)?.y;
+            return { ...one, picture: one.heading && end ? picture(one.y + 12, end - 12) : "" }; })""")
+    bands = []
+    for one in words:
+        if one["heading"]:
+            if not bands or bands[-1]["y"] != one["y"]:  # drawn twice where a width has just changed
+                bands.append({"heading": one["words"], "y": one["y"], "right": one["right"], "picture": one["picture"], "cells": []})
+        elif {"title": one["words"], "x": one["x"]} not in bands[-1]["cells"]:
+            bands[-1]["cells"].append({"title": one["words"], "x": one["x"]})
+    return bands
+
+
+def check_bands(browser):
+    """real and generated motions stand one under the other; of a comparison real ones, A's and B's, the same clips in a column"""
+    if run_with_motions(browser) is None:
+        return
+    names = browser.run("""return JSON.parse(document.getElementById("data").textContent).rows.map((row) => row.name)""")
+    wanted = ["Real", *names] if browser.comparison else ["Real", "Generated"]
+    for action in ("-1", "0"):
+        bands = drawn_bands(browser, action)
+        expect([band["heading"] for band in bands] == wanted, f"bands {[band['heading'] for band in bands]} in place of {wanted}")
+        for band in bands:
+            expect([cell["x"] for cell in band["cells"]] == [cell["x"] for cell in bands[0]["cells"]],
+                   f"{band['heading']}: motions stand elsewhere than the real ones")
+        told = browser.run("return document.getElementById('viewer').getAttribute('aria-label')")
+        expect(all(name in told for name in wanted[1:] if browser.comparison), f"who does not see it is told {told!r}")
+    if browser.comparison:
+        real, a, b = bands
+        expect([cell["title"] for cell in a["cells"]] == [cell["title"] for cell in b["cells"]], "B's clips are not A's")
+        expect(len({real["picture"], a["picture"], b["picture"]}) == 3, "two bands show the same motions")
+        check_narrow_bands(browser, wanted)
+
+
+def check_narrow_bands(browser, wanted):
+    """Below 560 pixels two clips of each band come first, then the other two; headings end in the picture."""
+    browser.resize(400, 900)
+    settled(browser)
+    bands = drawn_bands(browser, "0")
+    expect(len(bands) == 2 * len(wanted), f"{len(bands)} bands in a narrow window in place of {2 * len(wanted)}")
+    for name, band in zip(wanted * 2, bands):
+        shown = band["heading"].removesuffix("…")
+        expect(name.startswith(shown) and len(shown) > 3, f"in a narrow window {name!r} is headed {band['heading']!r}")
+        expect(band["right"] < 400 and len(band["cells"]) == 2, f"in a narrow window {name} has {len(band['cells'])} columns")
+    browser.resize(1280, 1000)
+    settled(browser)
+
+
 def check_panels(browser):
     """another run and another action change the panels; a run without anything says so"""
     words = "return document.getElementById('panels').innerText"
@@ -317,7 +384,7 @@ def check_requests(browser):
         expect(url.startswith("data:") or url.split("#")[0] == browser.page, f"the page asks for {url}")
 
 
-CHECKS = [check_hostile_names, check_tables, check_tips, check_play, check_keys, check_drag, check_panels, check_matrix,
+CHECKS = [check_hostile_names, check_tables, check_tips, check_play, check_keys, check_drag, check_bands, check_panels, check_matrix,
           check_themes, check_widths, check_requests, check_console]
 
 
@@ -337,6 +404,7 @@ def take_screenshots(browser, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("report", type=pathlib.Path)
+    parser.add_argument("--comparison", action="store_true", help="the page is of `actformer compare`: no table of a paper is in it")
     parser.add_argument("--screenshots", type=pathlib.Path, metavar="DIR")
     options = parser.parse_args()
     if not available():
@@ -344,9 +412,12 @@ def main():
         return 77
     with Browser() as browser:
         browser.page = options.report.resolve(strict=True).as_uri()
+        browser.comparison = options.comparison
         browser.resize(1280, 1000)
         browser.open(browser.page)
         for check in CHECKS:
+            if options.comparison and check is check_tables:
+                continue
             try:
                 check(browser)
             except Failed as e:
