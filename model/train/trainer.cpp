@@ -141,9 +141,12 @@ void Loop::resume() {
         else if (!validations_.scores() && validations_.best())
             say(fmt::format("weights-best.h5 is of epoch {} and stays: nothing scores later ones",
                             validations_.best()->epoch));
-        if (epoch() >= settings_.epochs)
-            say(fmt::format("{} of {} epochs are done: nothing is left to train; a larger epochs= goes on",
-                            epoch(), settings_.epochs));
+        if (epoch() > settings_.epochs)
+            say(fmt::format("{} epochs are done, more than epochs={}: nothing is left to train", epoch(),
+                            settings_.epochs));
+        else if (epoch() == settings_.epochs)
+            say(fmt::format("all {} epochs are done: nothing is left to train; a larger epochs= goes on",
+                            epoch()));
         else if (step_ % steps_an_epoch_ == 0)
             say(fmt::format("going on after epoch {} of {}", epoch(), settings_.epochs));
         else

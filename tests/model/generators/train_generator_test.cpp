@@ -273,6 +273,8 @@ TEST_F(TrainGenerator, KeepsARunToItsSettingsItsDataAndOneTraining) {
     ASSERT_EQ(train("run", "epochs=1").exit, 0);
     expect_refused(train("run", "width=8"), {"other settings", "width is 16 there and 8 here", "another -o"});
     EXPECT_EQ(train("run", "epochs=2").exit, 0);
+    EXPECT_NE(train("run", "epochs=2").output.find("all 2 epochs are done: nothing is left to train"),
+              std::string::npos);
     EXPECT_NE(train("run", "epochs=1").output.find("2 epochs are done, more than epochs=1"),
               std::string::npos);
     write_file(at("csgn.yaml"), "model: csgn\n");
