@@ -55,16 +55,7 @@ std::string text_of(const Json& json) {
 
 }  // namespace
 
-bool Workplace::may_be_ours(const fs::path& folder) {
-    const auto status = fs::symlink_status(folder);
-    if (!fs::exists(status)) return true;
-    return fs::is_directory(status) && (fs::is_empty(folder) || fs::exists(folder / "lock"));
-}
-
 Workplace::Workplace(fs::path folder, const std::string& request) : folder_(std::move(folder)) {
-    if (!may_be_ours(folder_))
-        throw Error("{}: is in the way, and no ingest made it; move it, or choose another -o",
-                    folder_.string());
     make_folders(folder_);
     lock_ = FileLock::if_free(folder_ / "lock");
     if (!lock_)

@@ -56,11 +56,7 @@ class Workplace {
   public:
     /// Opens or makes `folder`. Work that an earlier run left for another `request` (settings and raw files) is thrown away, and
     /// what is no longer as it was written. Throws Error where another process holds it.
-    /// So it does where something lies there that no ingest made: it is not touched.
     Workplace(std::filesystem::path folder, const std::string& request);
-
-    /// Whether nothing is there, or an empty folder, or one that an ingest worked in; never a link.
-    static bool may_be_ours(const std::filesystem::path& folder);
 
     const std::vector<Tranche>& finished() const { return finished_; }
 

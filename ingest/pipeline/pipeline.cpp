@@ -76,7 +76,7 @@ class Ingest {
             take_over_finished(wanted);
             std::error_code ignored;
             for (const auto& left : {aside, fs::path(request_.out.string() + ".partial")})
-                if (Workplace::may_be_ours(left)) fs::remove_all(left, ignored);
+                fs::remove_all(left, ignored);
             return summary_;
         }
         const SafePoints safe_points;

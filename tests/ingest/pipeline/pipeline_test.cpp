@@ -289,26 +289,6 @@ TEST_F(PipelineOnDevice, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
     EXPECT_EQ(contents(dir / "out"), contents(dir / "whole"));
 }
 
-TEST_F(PipelineOnDevice, WhatNoIngestMadeIsNotWorkedInNorRemoved) {
-    write_file(dir / "thesis/data/chapter", "precious");
-    write_file(dir / "thesis/journal", "dear diary");
-    const auto before = contents(dir / "thesis");
-    fs::create_directory_symlink("thesis", dir / "out.partial");
-    fs::copy(dir / "thesis", dir / "other.partial", fs::copy_options::recursive);
-    LineFormat format;
-    for (const auto* out : {"out", "other"}) {
-        const auto why = error_of([&] { run(format, out); });
-        EXPECT_NE(why.find(".partial: is in the way, and no ingest made it; move it"), std::string::npos)
-            << why;
-    }
-    fs::rename(dir / "other.partial", dir / "kept");
-    run(format, "other");
-    fs::rename(dir / "kept", dir / "other.partial");
-    run(format, "other");  // all is done: what it worked in goes, and nothing else
-    EXPECT_EQ(contents(dir / "other.partial"), before);
-    EXPECT_EQ(contents(dir / "thesis"), before);
-}
-
 TEST_F(PipelineOnDevice, WhatChangedBetweenAStopAndTheNextRunIsMadeAgainAndNamed) {
     run_until_it_stops();
     LineFormat whole;
