@@ -145,3 +145,16 @@ TEST(ShippedConfigs, AllLoad) {
     }
     EXPECT_GE(count, 8U);
 }
+
+TEST(ShippedConfigs, SwitchesThatThePapersDoNotHaveAreOffInTheirRecognisers) {
+    for (const std::string name :
+         {"recogniser.yaml", "recogniser-ntu-1p.yaml", "recogniser-ntu-2p.yaml", "recogniser-gru.yaml"}) {
+        const auto file = source("model/configs/" + name);
+        auto config = recogniser_config(recogniser_kind_in(file));
+        config.load(file);
+        const auto settings = recogniser_settings(config);
+        EXPECT_EQ(settings.noise, 0) << name;
+        EXPECT_EQ(settings.mirror, 0) << name;
+        EXPECT_EQ(settings.turn, 0) << name;
+    }
+}

@@ -136,7 +136,10 @@ TEST(ActFormerGeneratorSettings, SwitchesThatThePaperDoesNotHaveAreOffInItsConfi
         EXPECT_EQ(config.get<double>("smooth"), 0) << name;
         EXPECT_EQ(config.get<double>("smooth_root"), 0) << name;
         EXPECT_EQ(config.get<std::int64_t>("discriminator_steps"), 4) << name;
-        const auto gan = gan_settings(config);
+    }
+    for (const auto* name : {"actformer.yaml", "actformer-ntu-1p.yaml", "actformer-ntu-2p.yaml", "csgn.yaml",
+                             "csgn-lineage.yaml"}) {
+        const auto gan = gan_settings(read_generator_config(configs + name));
         EXPECT_EQ(gan.spread, 0) << name;
         EXPECT_EQ(gan.mirror, 0) << name;
         EXPECT_EQ(gan.turn, 0) << name;
