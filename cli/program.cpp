@@ -103,9 +103,11 @@ int parse(int argc, char** argv, const std::function<void(CLI::App&)>& add_comma
     return 0;
 }
 
-void do_nothing(CLI::App& app) {
+/// So that parsing checks words and runs no command.
+void forget_callbacks(CLI::App& app) {
     app.callback({});
-    for (auto* command : app.get_subcommands([](const CLI::App*) { return true; })) do_nothing(*command);
+    for (auto* command : app.get_subcommands([](const CLI::App*) { return true; }))
+        forget_callbacks(*command);
 }
 
 /// What was printed must have arrived. Nobody need read it all.
@@ -131,7 +133,7 @@ std::string problem_of(std::vector<std::string> words,
     app.name("actformer");
     app.require_subcommand(1);
     add_commands(app);
-    do_nothing(app);
+    forget_callbacks(app);
     std::vector<char*> arguments;
     for (auto& word : words) arguments.push_back(word.data());
     const int count = static_cast<int>(arguments.size());

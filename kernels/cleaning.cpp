@@ -64,8 +64,9 @@ LimbRows fill_and_smooth(Device& device, const ClipBatch& batch, const FrameTabl
 
     const Buffer<float> taps(device, gaussian(how));
     const Buffer<cl_uint2> blocks(device, blocks_of(batch));
+    // Times 8 frames in registers.
     const auto vec = how.vec != 0                       ? how.vec
-                     : device.info().type != "CPU"      ? 4U  // times 8 frames in registers
+                     : device.info().type != "CPU"      ? 4U
                      : device.info().vector_width >= 16 ? 16U
                                                         : 8U;
     const auto columns = chunks * 16 / vec;

@@ -115,8 +115,7 @@ std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_vi
 
 Device::Device(std::string_view wish) {
     const auto devices = raw_devices();
-    const auto known =
-        described(devices);  // asked a second time there may be others, as where memory is short
+    const auto known = described(devices);
     info_ = known[choose_device(known, wish)];
     device_ = devices.at(info_.index);
     try {

@@ -25,9 +25,8 @@ struct MeasuredRun {
 
 struct MeasuredRow {
     std::string sweep, name, status, why;
-    std::optional<std::size_t>
-        comparison;                  ///< the place of its folder among those read, if that is of a comparison
-    std::vector<std::string> fills;  ///< cells, see find_cell()
+    std::optional<std::size_t> comparison;  ///< of the folders read, the place of its comparison's
+    std::vector<std::string> fills;         ///< cells, see find_cell()
     std::string dataset, split;
     std::string data;                 ///< in plain words, what `dataset` is
     ingest::DataOrigin origin;        ///< of `dataset`, as the scores tell it
