@@ -34,6 +34,7 @@ Json figures_json(const Figures& figures) {
 Json group_json(const CellGroup& group, const PaperColumns& columns) {
     Json out{{"dataset", columns.dataset}, {"state", in_words(group.state)}};
     out["origin"] = group.row ? group.row->origin.text() : "";
+    out["near_chance"] = group.near_chance;
     out["provenance"] = provenance(group);
     for (std::size_t m = 0; m < columns.metrics.size(); ++m)
         out["metrics"][columns.metrics[m].name] = figures_json(group.figures[m]);
@@ -99,7 +100,7 @@ std::string with_origin(const FilledTable& table, std::size_t column) {
     return origin.empty() ? name : fmt::format("{} ({})", name, origin);
 }
 
-/// The paper's, and what the motions of each column are.
+/// The paper's, what the motions of each column are, and which recognisers are near chance on real ones.
 std::string latex_caption(const FilledTable& table) {
     std::vector<std::string> sentences;
     if (!table.paper->caption.empty()) sentences.push_back(table.paper->caption);
@@ -112,6 +113,7 @@ std::string latex_caption(const FilledTable& table) {
             for (const auto& figures : group.figures) over.insert(over_what(figures));
     over.erase("");
     if (!over.empty()) sentences.push_back(fmt::format("Intervals of 95 % over {}", fmt::join(over, " or ")));
+    for (auto& line : near_chance_lines(table)) sentences.push_back(std::move(line));
     return fmt::format("{}", fmt::join(sentences, ". "));
 }
 
@@ -165,7 +167,8 @@ nlohmann::ordered_json to_json(const std::vector<FilledTable>& tables,
 }
 
 std::string to_csv(const std::vector<FilledTable>& tables) {
-    std::string out = "table,row,dataset,metric,state,mean,ci95,over,repeats,paper,paper_ci95,origin\n";
+    std::string out =
+        "table,row,dataset,metric,state,mean,ci95,over,repeats,paper,paper_ci95,origin,near_chance\n";
     for (const auto& table : tables)
         for (std::size_t r = 0; r < table.rows.size(); ++r)
             for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
@@ -173,9 +176,10 @@ std::string to_csv(const std::vector<FilledTable>& tables) {
                 const auto& columns = table.paper->columns[c];
                 for (std::size_t m = 0; m < columns.metrics.size(); ++m)
                     out += fmt::format(
-                        "{},{},{},{},{},{},{}\n", table.paper->id, csv_cell(table.paper->rows[r].name),
+                        "{},{},{},{},{},{},{},{}\n", table.paper->id, csv_cell(table.paper->rows[r].name),
                         csv_cell(columns.dataset), columns.metrics[m].name, state_of(group, m),
-                        csv_figures(group.figures[m]), csv_cell(group.row ? group.row->origin.text() : ""));
+                        csv_figures(group.figures[m]), csv_cell(group.row ? group.row->origin.text() : ""),
+                        csv_cell(group.near_chance));
             }
     return out;
 }

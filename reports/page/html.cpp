@@ -50,6 +50,14 @@ std::string data_lines(const FilledTable& table) {
     return out;
 }
 
+/// What stands under a table whose figures mean little.
+std::string warnings(const FilledTable& table) {
+    std::string out;
+    for (const auto& line : near_chance_lines(table))
+        out += "<p class=\"warning\">" + escaped(line) + "</p>\n";
+    return out;
+}
+
 std::string head(const FilledTable& table) {
     std::string groups, metrics;
     for (std::size_t c = 0; c < table.paper->columns.size(); ++c) {
@@ -74,6 +82,7 @@ std::string tip(const CellGroup& group) {
     if (lines.empty()) return "";
     std::string text = "<b>" + escaped(group.row->name) + "</b>";
     for (const auto& line : lines) text += "<br>" + escaped(line);
+    if (!group.near_chance.empty()) text += "<br>the recogniser is near chance on real motions";
     return "<span class=\"tip\" role=\"tooltip\">" + text + "</span>";
 }
 
@@ -194,9 +203,9 @@ std::string html_tables(const std::vector<FilledTable>& tables) {
             "<section class=\"table\" id=\"{}\">\n<h2>{} <small>{}</small></h2>\n<p "
             "class=\"source\">{}</p>\n{}<div "
             "class=\"scroll\"><table>\n{}{}"
-            "</table></div>\n</section>\n",
+            "</table></div>\n{}</section>\n",
             table.paper->id, escaped(table.paper->title), escaped(table.paper->caption),
-            escaped(table.paper->source), data_lines(table), head(table), body(table));
+            escaped(table.paper->source), data_lines(table), head(table), body(table), warnings(table));
     return out;
 }
 

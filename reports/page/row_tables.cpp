@@ -98,6 +98,8 @@ PaperTable empty_table(const Rows& rows, std::size_t number) {
 CellGroup real_group(const Rows& rows, const PaperColumns& columns) {
     CellGroup out;
     out.state = CellState::measured;
+    for (const auto* row : rows)
+        if (out.near_chance.empty()) out.near_chance = near_chance(*row);
     for (const auto& metric : columns.metrics) {
         auto& figures = out.figures.emplace_back();
         if (const auto value = of_real_motions(rows, metric)) figures.measured = {*value, std::nullopt};

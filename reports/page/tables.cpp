@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "base/error.hpp"
 #include "base/text/loose_json.hpp"
+#include "eval/metrics/confusion.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -150,8 +152,18 @@ void add_score_lines(const Json& scored, std::vector<std::string>& lines) {
 
 }  // namespace
 
+std::string near_chance(const MeasuredRow& row) {
+    for (const auto& run : row.runs) {
+        const auto& accuracy = loose::member(loose::member(run.scored, "real"), "accuracy");
+        if (!accuracy.is_number()) continue;
+        const auto classes = loose::list(run.scored, "per_class").size();
+        if (auto said = eval::near_chance(accuracy.get<double>(), classes); !said.empty()) return said;
+    }
+    return {};
+}
+
 CellGroup measured_group(const PaperColumns& columns, const MeasuredRow& row) {
-    CellGroup group{state_of(row), &row, std::vector<Figures>(columns.metrics.size())};
+    CellGroup group{state_of(row), &row, std::vector<Figures>(columns.metrics.size()), near_chance(row)};
     for (std::size_t m = 0; m < columns.metrics.size(); ++m) {
         group.figures[m] = figures_of(row, columns.metrics[m]);
         group.figures[m].real = real_value(row, columns.metrics[m]);
@@ -230,6 +242,20 @@ std::string origin_of(const FilledTable& table, std::size_t dataset) {
         if (row[dataset].row) origins.insert(row[dataset].row->origin.text());
     origins.erase("");
     return fmt::format("{}", fmt::join(origins, "; "));
+}
+
+std::vector<std::string> near_chance_lines(const FilledTable& table) {
+    std::vector<std::string> lines;
+    for (std::size_t c = 0; c < table.paper->columns.size(); ++c) {
+        std::map<std::string, std::vector<std::string>> rows;  // by what is said of them
+        for (std::size_t r = 0; r < table.rows.size(); ++r)
+            if (const auto& said = table.rows[r][c].near_chance; !said.empty())
+                rows[said].push_back(table.paper->rows[r].name);
+        for (const auto& [said, names] : rows)
+            lines.push_back(
+                fmt::format("{} ({}): {}", table.paper->columns[c].dataset, fmt::join(names, "; "), said));
+    }
+    return lines;
 }
 
 std::vector<std::string> provenance(const CellGroup& group) {

@@ -33,6 +33,7 @@ struct CellGroup {
     CellState state = CellState::not_run;
     const MeasuredRow* row = nullptr;  ///< null where nothing fills the cells
     std::vector<Figures> figures;      ///< as PaperColumns::metrics
+    std::string near_chance;           ///< see near_chance()
 };
 
 struct FilledTable {
@@ -43,6 +44,10 @@ struct FilledTable {
     /// Whether a row of a sweep fills any of it.
     bool has_rows() const;
 };
+
+/// What eval::near_chance() says of the recogniser that a row was scored with, by its accuracy on real motions; of several runs, the
+/// first that it says anything of. Empty where it says nothing, and where the scores do not tell.
+std::string near_chance(const MeasuredRow& row);
 
 /// What a row has measured of a table's columns.
 CellGroup measured_group(const PaperColumns& columns, const MeasuredRow& row);
@@ -66,6 +71,10 @@ std::string paper_text(const PaperFigure& figure);
 /// What the motions of a table's column `dataset` are: "stand-in, generic skeleton"; several where its rows were measured on
 /// several; empty where none tells.
 std::string origin_of(const FilledTable& table, std::size_t dataset);
+
+/// What near_chance() says, a line each dataset and recogniser, with the table's rows that it is said of: "NTU-1P (full; fixed PE): the
+/// recogniser is right on ..".
+std::vector<std::string> near_chance_lines(const FilledTable& table);
 
 /// Where a group's figures come from, a line each: sweep, row and seeds, settings, data and its fingerprint, recogniser, version.
 std::vector<std::string> provenance(const CellGroup& group);

@@ -124,6 +124,19 @@ TEST_F(ReportPage, TablesComeInEveryForm) {
     EXPECT_NE(read_file(dir / "t.tex").find("\nfull & "), std::string::npos);
 }
 
+TEST_F(ReportPage, SaysOfAnUntrainedRecogniserThatItIsNearChance) {
+    const auto result = report("-o " + at("r.html") + " --json --csv " + at("t.csv") + " --latex " +
+                               at("t.tex") + " 2>/dev/null");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    const auto json = nlohmann::json::parse(result.output);
+    const std::string said = json["tables"][2]["rows"][3]["groups"][0]["near_chance"];
+    ASSERT_TRUE(said.starts_with("the recogniser is right on ")) << said;
+    EXPECT_EQ(json["tables"][2]["rows"][0]["groups"][0]["near_chance"], "") << "this row failed";
+    EXPECT_NE(read_file(dir / "r.html").find(": " + said + "</p>"), std::string::npos);
+    EXPECT_NE(read_file(dir / "t.csv").find(",\"" + said + "\"\n"), std::string::npos);
+    EXPECT_NE(read_file(dir / "t.tex").find("full): the recogniser is right on "), std::string::npos);
+}
+
 TEST_F(ReportPage, WhatIsMissingIsToldAndTheRestIsShown) {
     fs::copy(swept().at("out"), dir / "out", fs::copy_options::recursive);
     for (const auto& entry : fs::recursive_directory_iterator(dir / "out"))
