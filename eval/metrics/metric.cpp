@@ -21,6 +21,7 @@ const std::vector<Metric>& metrics() {
         {"multimodality", "multimodality", "", 1, Direction::nearest_real},
         {"limb_acceleration", "limb acceleration", "", 1, Direction::nearest_real},
         {"root_acceleration", "root acceleration", "", 1, Direction::nearest_real},
+        {"root_speed", "root speed", "", 1, Direction::nearest_real},
         {"foot_sliding", "foot sliding", "", 1, Direction::nearest_real},
         {"root_distance", "root distance", "", 1, Direction::lower},
     };

@@ -73,6 +73,16 @@ double sliding(const Positions& positions, std::size_t frames, std::size_t perso
     return speed.value();
 }
 
+/// Over the steps between frames and the persons.
+double root_speed(const Positions& positions, std::size_t frames, std::size_t persons, std::size_t root,
+                  double fps) {
+    Mean speed;
+    for (std::size_t p = 0; p < persons; ++p)
+        for (std::size_t t = 0; t + 1 < frames; ++t)
+            speed.add(fps * length(minus(positions.at(t + 1, p, root), positions.at(t, p, root))));
+    return speed.value();
+}
+
 std::vector<float> gathered(const std::vector<float>& from, std::span<const std::size_t> which,
                             std::size_t columns) {
     std::vector<float> out;
@@ -130,9 +140,10 @@ void measure(std::span<const float> positions, std::size_t frames, std::size_t p
             }
     to.limb_acceleration.push_back(static_cast<float>(limbs.value()));
     to.root_acceleration.push_back(static_cast<float>(roots.value()));
+    const auto root = static_cast<std::size_t>(std::ranges::find(body.parents, -1) - body.parents.begin());
+    to.root_speed.push_back(static_cast<float>(root_speed(at, frames, persons, root, body.fps)));
     if (!body.feet.empty()) to.foot_sliding.push_back(static_cast<float>(sliding(at, frames, persons, body)));
     to.columns = persons * (persons - 1) / 2 * distance_frames;
-    const auto root = static_cast<std::size_t>(std::ranges::find(body.parents, -1) - body.parents.begin());
     for (std::size_t i = 0; i < distance_frames; ++i) {
         const auto t = i * (frames - 1) / (distance_frames - 1);
         for (std::size_t p = 0; p < persons; ++p)
@@ -143,9 +154,9 @@ void measure(std::span<const float> positions, std::size_t frames, std::size_t p
 }
 
 MotionMeasures subset(const MotionMeasures& from, const std::vector<std::size_t>& which) {
-    return {gathered(from.limb_acceleration, which, 1), gathered(from.root_acceleration, which, 1),
-            gathered(from.foot_sliding, which, 1), gathered(from.distances, which, from.columns),
-            from.columns};
+    return {gathered(from.limb_acceleration, which, 1),    gathered(from.root_acceleration, which, 1),
+            gathered(from.root_speed, which, 1),           gathered(from.foot_sliding, which, 1),
+            gathered(from.distances, which, from.columns), from.columns};
 }
 
 MotionScore compare(const MotionMeasures& real, std::span<const std::size_t> of_real,
@@ -156,6 +167,7 @@ MotionScore compare(const MotionMeasures& real, std::span<const std::size_t> of_
         ratio(mean_of(generated.limb_acceleration, of_generated), mean_of(real.limb_acceleration, of_real));
     out.root_acceleration =
         ratio(mean_of(generated.root_acceleration, of_generated), mean_of(real.root_acceleration, of_real));
+    out.root_speed = ratio(mean_of(generated.root_speed, of_generated), mean_of(real.root_speed, of_real));
     out.foot_sliding = mean_of(generated.foot_sliding, of_generated);
     if (real.columns > 0 && generated.columns > 0)
         out.root_distance = wasserstein(gathered(real.distances, of_real, real.columns),

@@ -1,4 +1,4 @@
-// What is measured of motions themselves, without a recogniser: how they accelerate, whether feet slide, and how far persons
+// What is measured of motions themselves, without a recogniser: how they accelerate, how fast the root moves, whether feet slide, and how far persons
 // keep from each other.
 #pragma once
 
@@ -30,6 +30,9 @@ struct MotionMeasures {
     /// root's position, m/s^2. Motions of under three frames have 0.
     std::vector<float> limb_acceleration, root_acceleration;
 
+    /// (n) mean over steps from frame to frame and persons: speed of the root, m/s. Motions of one frame have 0.
+    std::vector<float> root_speed;
+
     /// (n) mean horizontal speed, m/s, of a foot while it is within near_floor of the lowest that a foot comes to in the motion;
     /// empty where there are no feet.
     std::vector<float> foot_sliding;
@@ -55,6 +58,7 @@ MotionMeasures subset(const MotionMeasures& from, const std::vector<std::size_t>
 struct MotionScore {
     std::optional<double> limb_acceleration;  ///< times that of real motions
     std::optional<double> root_acceleration;
+    std::optional<double> root_speed;
     std::optional<double> foot_sliding;  ///< m/s
     std::optional<double>
         root_distance;  ///< Wasserstein-1, metres, between the distributions of distances between roots

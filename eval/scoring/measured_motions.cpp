@@ -92,13 +92,14 @@ MotionMeasures MeasuredSource::measures() const {
 }
 
 void write_measures(const std::filesystem::path& path, const MotionMeasures& measures) {
-    hdf5::Writer file(measures.size() * (measures.columns + 3) * sizeof(float) + 65536);
+    hdf5::Writer file(measures.size() * (measures.columns + 4) * sizeof(float) + 65536);
     const hsize_t n = measures.size();
     const auto write = [&](const char* name, const std::vector<float>& values) {
         if (!values.empty()) file.write<float>(name, {n, values.size() / n}, values);
     };
     write("limb_acceleration", measures.limb_acceleration);
     write("root_acceleration", measures.root_acceleration);
+    write("root_speed", measures.root_speed);
     write("foot_sliding", measures.foot_sliding);
     write("distances", measures.distances);
     write_whole(path, file.checked_image());
@@ -109,8 +110,8 @@ MotionMeasures read_measures(const std::filesystem::path& path) {
     const auto read = [&](const char* name) {
         return file.has(name) ? file.read<float>(name) : std::vector<float>();
     };
-    MotionMeasures out{read("limb_acceleration"), read("root_acceleration"), read("foot_sliding"),
-                       read("distances"), 0};
+    MotionMeasures out{read("limb_acceleration"), read("root_acceleration"), read("root_speed"),
+                       read("foot_sliding"),      read("distances"),         0};
     if (!out.distances.empty()) out.columns = out.distances.size() / out.size();
     return out;
 }

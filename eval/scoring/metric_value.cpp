@@ -29,6 +29,7 @@ constexpr MetricValue value_table[] = {
     {"multimodality", [](const Score& s) { return s.multimodality; }},
     {"limb_acceleration", nullptr, &MotionScore::limb_acceleration},
     {"root_acceleration", nullptr, &MotionScore::root_acceleration},
+    {"root_speed", nullptr, &MotionScore::root_speed},
     {"foot_sliding", nullptr, &MotionScore::foot_sliding},
     {"root_distance", nullptr, &MotionScore::root_distance},
 };

@@ -200,10 +200,11 @@ class Sides {
         return request_.work / (key.hex() + ".h5");
     }
 
-    /// How motions are measured is the dataset's: its bodies' lengths and frames a second.
+    /// How motions are measured is the dataset's: its bodies' lengths and frames a second. What was kept before roots had a speed
+    /// is measured anew.
     fs::path measures_of(const std::string& motions) const {
         Checksum key;
-        key.add(fmt::format("{}|{}|{}", motions, dataset_checksum_, ACTFORMER_VERSION));
+        key.add(fmt::format("{}|{}|{}|root speed", motions, dataset_checksum_, ACTFORMER_VERSION));
         return request_.work / (key.hex() + ".measures");
     }
 

@@ -19,6 +19,7 @@ HEADINGS = {  # as tables print them: names in files
     "KIDw": "kid_whole",
     "limb acceleration": "limb_acceleration",
     "root acceleration": "root_acceleration",
+    "root speed": "root_speed",
     "foot sliding": "foot_sliding",
     "root distance": "root_distance",
 }

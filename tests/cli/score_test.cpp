@@ -6,10 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "base/checksum/checksum.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
 #include "eval/metrics/confusion.hpp"
 #include "eval/scoring/features_file.hpp"
+#include "eval/scoring/measured_motions.hpp"
 #include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/common_joints.hpp"
 #include "ingest/dataset/dataset.hpp"
@@ -438,6 +440,36 @@ TEST_F(Score, TakesNoMeasuresOfOtherWindows) {
     EXPECT_FALSE(fs::exists(dir / "s.json.work"));
     EXPECT_EQ(json, scored(of_split("xsub/test"))) << "as without a scoring of another split before it";
     EXPECT_TRUE(json.contains("limb_acceleration"));
+}
+
+TEST_F(Score, TellsHowFastRootsMove) {
+    const ingest::Dataset dataset(datasets() / "ntu-1p");
+    for (const int speed : {1, 2}) {  // metres a second
+        ingest::MotionsWriter writer(dir / fmt::format("{}.h5", speed));
+        writer.describe(ingest::subjects_of(dataset));
+        for (unsigned i = 0; i < 12; ++i) {
+            auto motion = made_motion(60, 1, i);
+            for (std::size_t t = 0; t < 60; ++t)
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    motion.values[t * 25 * 3 + axis] =
+                        axis == 0 ? static_cast<float>(speed) * static_cast<float>(t) / 30 : 0;
+            writer.add(fmt::format("A{:03}_{}", i % 4 + 1, i / 4), motion);
+        }
+        writer.finish();
+    }
+    const auto arguments = one_person() + "--split all --generated " + at("1.h5") + " " + at("2.h5");
+    // A scoring that was interrupted before scores had a root speed left measures without one.
+    Checksum key;
+    key.add(
+        fmt::format("real|all|60|{}|{}", ingest::dataset_checksum(datasets() / "ntu-1p"), ACTFORMER_VERSION));
+    fs::create_directories(dir / "s.json.work");
+    eval::write_measures(dir / "s.json.work" / (key.hex() + ".measures"), {{1}, {1}, {}, {1}, {}, 0});
+    const auto json = scored(arguments + " -o " + at("s.json"));
+    const auto& repeats = json["root_speed"]["repeats"];
+    ASSERT_TRUE(repeats[0].is_number()) << json;
+    EXPECT_NEAR(repeats[1].get<double>() / repeats[0].get<double>(), 2, 1e-4);
+    EXPECT_EQ(json["real"]["root_speed"], 1);
+    EXPECT_TRUE(json["per_class"][0]["root_speed"].is_number());
 }
 
 TEST_F(Score, TakesLabelsFromAFile) {

@@ -177,6 +177,7 @@ class Results(unittest.TestCase):
             self.assertEqual(scores[name].mean, told[name]["mean"])
             self.assertEqual(scores[name].floor, told["floor"].get(name))
         self.assertEqual(scores["FIDm"], scores["fid_mean"])
+        self.assertEqual(scores["root speed"], scores["root_speed"])
         self.assertNotIn("real", scores.metrics)
         self.assertNotIn("floor", scores.metrics)
         self.assertEqual(len(scores.confusion), 94)

@@ -20,7 +20,7 @@ TEST(Metrics, HaveNamesOfTheirOwnAndValues) {
     score.kid_whole = 10;
     score.diversity = 11;
     score.multimodality = 12;
-    score.motion = {13, 14, 15, 16};
+    score.motion = {13, 14, 15, 16, 17};
     std::vector<double> values;
     for (const auto& metric : metrics()) {
         names.insert(metric.name);
@@ -30,7 +30,7 @@ TEST(Metrics, HaveNamesOfTheirOwnAndValues) {
         values.push_back(*value_of(score, metric));
     }
     EXPECT_EQ(names.size(), metrics().size());
-    EXPECT_EQ(values, (std::vector<double>{1, 4, 3, 6, 5, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}));
+    EXPECT_EQ(values, (std::vector<double>{1, 4, 3, 6, 5, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17}));
     EXPECT_EQ(find_metric("fid"), nullptr);
     const Score nothing;
     for (const auto& metric : metrics()) EXPECT_FALSE(value_of(nothing, metric)) << metric.name;

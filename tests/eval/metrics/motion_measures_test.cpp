@@ -1,4 +1,4 @@
-// Accelerations, sliding and distances of motions made to have known ones.
+// Accelerations, speeds, sliding and distances of motions made to have known ones.
 #include "eval/metrics/motion_measures.hpp"
 
 #include <gtest/gtest.h>
@@ -60,6 +60,46 @@ TEST(MotionMeasures, AccelerationIsTheSecondDifference) {
     EXPECT_NEAR(got.root_acceleration[0], 0.01 * 100, 1e-4);
     EXPECT_NEAR(got.limb_acceleration[0], 0.04 * 100, 1e-4);
     EXPECT_EQ(got.columns, 0U);
+}
+
+TEST(MotionMeasures, RootSpeedIsTheMeanOverStepsAndPersons) {
+    // Metres a frame, 10 frames a second: one root goes on at 0.05 in x and z, one goes up and down, one stands. Feet do not count.
+    const auto root = [](double t, std::size_t p) {
+        return p == 0   ? Place{0.03 * t, 1, 0.04 * t}
+               : p == 1 ? Place{0, std::fmod(t, 2) * 0.25, 0}
+                        : Place{0, 1, 0};
+    };
+    const auto foot = [](double t, std::size_t) { return Place{7 * t, 0, 0}; };
+    MotionMeasures got;
+    measure(motion(9, 1, root, foot), 9, 1, body(), got);
+    measure(motion(9, 3, root, foot), 9, 3, body(), got);
+    measure(motion(2, 1, root, foot), 2, 1, body(), got);
+    measure(motion(1, 1, root, foot), 1, 1, body(), got);
+    ASSERT_EQ(got.root_speed.size(), 4U);
+    EXPECT_NEAR(got.root_speed[0], 0.5, 1e-5);
+    EXPECT_NEAR(got.root_speed[1], (0.5 + 2.5 + 0) / 3, 1e-5);
+    EXPECT_NEAR(got.root_speed[2], 0.5, 1e-5);
+    EXPECT_EQ(got.root_speed[3], 0) << "one frame";
+}
+
+TEST(MotionMeasures, RootSpeedIsTimesThatOfRealMotions) {
+    const auto at = [](double speed) {
+        return [speed](double t, std::size_t) { return Place{0.1 * speed * t, 1, 0}; };
+    };
+    const auto of = [&](const std::vector<double>& speeds) {
+        MotionMeasures out;
+        for (const double speed : speeds) measure(motion(30, 1, at(speed), at(speed)), 30, 1, body(), out);
+        return out;
+    };
+    const auto real = of({1, 2, 3}), made = of({1.5, 2.5, 8});
+    EXPECT_NEAR(*compare(real, first(3), made, first(3)).root_speed, 2, 1e-5);
+    EXPECT_NEAR(*compare(real, first(2), made, first(1)).root_speed, 1, 1e-5);
+    EXPECT_FALSE(compare(of({0}), first(1), made, first(3)).root_speed) << "real roots that stand";
+    auto before = made;  // as a file has them that was written before there was a root speed
+    before.root_speed.clear();
+    const auto score = compare(real, first(3), before, first(3));
+    EXPECT_FALSE(score.root_speed);
+    EXPECT_TRUE(score.foot_sliding);
 }
 
 TEST(MotionMeasures, FeetSlideWhileTheyAreNearTheFloor) {
@@ -124,16 +164,18 @@ TEST(MotionMeasures, WassersteinOfSetsOfAnySizes) {
 }
 
 TEST(MotionMeasures, AreComparedOverTheMotionsNamed) {
-    MotionMeasures real{{1, 3}, {2, 2}, {0.1F, 0.3F}, {1, 1, 2, 2}, 2},
-        made{{4, 8, 90}, {1, 1, 90}, {0.2F, 0.4F, 90}, {3, 3, 3, 3, 90, 90}, 2};
+    MotionMeasures real{{1, 3}, {2, 2}, {1, 2}, {0.1F, 0.3F}, {1, 1, 2, 2}, 2},
+        made{{4, 8, 90}, {1, 1, 90}, {3, 6, 90}, {0.2F, 0.4F, 90}, {3, 3, 3, 3, 90, 90}, 2};
     const std::vector<std::size_t> some{0, 1};
     const auto score = compare(real, first(2), made, some);
     EXPECT_DOUBLE_EQ(*score.limb_acceleration, 3);
     EXPECT_DOUBLE_EQ(*score.root_acceleration, 0.5);
+    EXPECT_DOUBLE_EQ(*score.root_speed, 3);
     EXPECT_NEAR(*score.foot_sliding, 0.3, 1e-6);
     EXPECT_DOUBLE_EQ(*score.root_distance, 1.5);
     const auto same = compare(real, first(2), subset(made, {1, 0}), some);
     EXPECT_DOUBLE_EQ(*same.limb_acceleration, 3);
+    EXPECT_DOUBLE_EQ(*same.root_speed, 3);
     EXPECT_FALSE(compare(real, {}, made, some).limb_acceleration);
     made.foot_sliding.clear();
     made.columns = 0;

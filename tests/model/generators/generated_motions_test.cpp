@@ -103,6 +103,7 @@ TEST_F(ScoreGenerator, MeasuresTheMotionsThemselves) {
     EXPECT_EQ(json["real"]["limb_acceleration"], 1);
     EXPECT_NEAR(json["floor"]["limb_acceleration"].get<double>(), 1, 0.5) << "real against real";
     EXPECT_TRUE(json["per_class"][2]["limb_acceleration"].is_number());
+    EXPECT_FALSE(json.contains("root_speed")) << "real roots of toy motions stand";
     EXPECT_FALSE(json.contains("foot_sliding")) << "no joint of toy motions is called a foot";
     EXPECT_FALSE(json.contains("root_distance")) << "one person";
     const auto file = at("m.h5");
