@@ -70,6 +70,20 @@ TEST_F(Man, HasAPageOfEveryCommand) {
         EXPECT_TRUE(fs::exists(*dir / "man1" / (std::string(name) + ".1"))) << name;
 }
 
+// `ingest bvh walks/ -o walks` says that walks is there already.
+TEST_F(Man, NoExampleOfIngestWritesWhereItReads) {
+    const std::regex onto_itself(
+        R"(actformer ingest [a-z0-9]+ (?:[^&\n]* )?([^ &\n]+?)/? (?:[^&\n]* )?-o \1[ \n])");
+    std::size_t examples = 0;
+    for (const auto& page : fs::directory_iterator(*dir / "man1")) {
+        const auto text = std::regex_replace(read_file(page), std::regex(R"(\\)"), "");
+        examples += text.find("actformer ingest ") != std::string::npos;
+        std::smatch found;
+        EXPECT_FALSE(std::regex_search(text, found, onto_itself)) << page << ": " << found.str();
+    }
+    EXPECT_GT(examples, 8U);
+}
+
 TEST_F(Man, GroffFindsNothingWrong) {
     if (!there_is("groff")) GTEST_SKIP() << "no groff";
     const auto warnings =

@@ -7,6 +7,7 @@ Python, all in one folder, so that a page finds what those before it made; where
     <!-- not run: WHY -->                  it needs what no test has
     <!-- in tests: X -> Y; X -> Y -->      X is replaced, so that a test takes seconds; with --printed it is not
     <!-- before it: COMMAND -->            run before the block, for what a reader has already
+    <!-- it says: TEXT -->                 it prints that, which the page does not show
     <!-- file: NAME -->                    the block is no command but a file
 """
 import argparse
@@ -18,7 +19,7 @@ import sys
 import tempfile
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
-COMMENT = re.compile(r"<!--\s*(not run|in tests|before it|file):\s*(.*?)-->", re.S)
+COMMENT = re.compile(r"<!--\s*(not run|in tests|before it|it says|file):\s*(.*?)-->", re.S)
 
 
 class Block:
@@ -28,7 +29,7 @@ class Block:
         self.page, self.language, self.text = page, match[1], match[2]
         self.line = match.string.count("\n", 0, match.start()) + 1
         self.notes = {kind: text.strip() for kind, text in COMMENT.findall(match.string[begin : match.start()])}
-        self.expected = None
+        self.expected = self.notes.get("it says")
 
     def command(self, printed):
         """What bash or Python is given."""
@@ -42,7 +43,7 @@ class Block:
 
     def says(self, output):
         """Whether `output` is what the page prints."""
-        pattern = r".*?".join(re.escape(part) for part in self.expected.strip().split("..."))
+        pattern = r".*?".join(re.escape(part.strip()) for part in self.expected.strip().split("..."))
         return re.search(pattern, output, re.S) is not None
 
 
@@ -107,6 +108,7 @@ def main():
         environment = dict(os.environ, PATH=f"{installed}/bin:{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}", PYTHONPATH=str(sources / "python"))
         for name in ("examples", "model", "reports", "tests", "weights"):  # it looks like the repository's root, as far as pages name it
             (pathlib.Path(folder) / name).symlink_to(sources / name)
+        (pathlib.Path(folder) / "build").symlink_to(options.build.resolve())
         if sum(check_page(page, sources, folder, environment, options.printed) for page in pages) == 0:
             raise SystemExit("no block ran")
 

@@ -15,7 +15,7 @@ struct MotionsCommand : IngestCommand {
 
 inline constexpr std::string_view motions_examples =
     "  actformer ingest motions joints.npy -o mine --topology smpl24 --labels labels.csv --fps 30\n"
-    "  actformer ingest motions takes/ -o takes --topology skeleton.yaml --name '{action}/{index}' --up z "
+    "  actformer ingest motions raw/takes -o takes --topology skeleton.yaml --name '{action}/{index}' --up z "
     "--scale 0.001\n"
     "  actformer ingest motions kinect.npy -o kinect --topology ntu25 --axes nctkp --clean --labels "
     "labels.csv\n"

@@ -16,7 +16,7 @@ struct Ntu13Command : IngestCommand {
 };
 
 inline constexpr std::string_view ntu13_examples =
-    "  actformer ingest ntu13 ntu13/ -o ntu13\n"
+    "  actformer ingest ntu13 raw/ntu13 -o ntu13\n"
     "  actformer ingest ntu13 ntu13.zip -o ntu13-joints --from joints\n"
     "RAW holds ntu_vibe_list.txt and joblib files named as NTU's clips are, S001C001P001R001A099.pkl. The 13 "
     "classes are numbered as\n"
