@@ -116,7 +116,7 @@ struct MethodSpeed::Parts {
           request(with_sizes_of(config, wanted)),
           spec(timed_spec(request)),
           torch(device_of(config)),
-          opencl(device_that_draws(generator_trainer_settings(config).opencl, nullptr)),
+          opencl(device_that_draws(generator_trainer_settings(config).opencl, 0, nullptr)),
           clips(clips_of(request, spec, opencl)),
           learner(method.learner(config, spec, {clips, torch, processes})),
           maker(method.maker(config, spec, learner->weights(), torch.str())),

@@ -36,7 +36,7 @@ TrainingResult train_here(const Config& config, const std::filesystem::path& run
     set_tf32_and_determinism(settings, device);
     const auto processes =
         data_parallel ? std::make_unique<Processes>(place, device) : std::make_unique<Processes>();
-    auto opencl = device_that_draws(settings.opencl, place.leads() ? events.note : nullptr);
+    auto opencl = device_that_draws(settings.opencl, place.local, place.leads() ? events.note : nullptr);
     const auto clips = view_to_draw(opencl, dataset, settings.train_split).store;
     const LearnerSetup setup{clips, device, *processes};
     const auto learner = method.learner(config, spec, setup);

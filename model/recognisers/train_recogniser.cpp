@@ -75,7 +75,7 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
     const auto joints = settings.joints_seen();
     auto trainee = trainee_for(settings, dataset, torch_device(settings.device));
     set_tf32_and_determinism(settings, torch_device(settings.device));
-    auto opencl = device_that_draws(settings.opencl, events.note);
+    auto opencl = device_that_draws(settings.opencl, 0, events.note);
     const auto clips = view_to_draw(opencl, dataset, settings.train_split, joints).store;
     std::optional<kernels::ClipStore> test_clips;
     if (!settings.test_split.empty())

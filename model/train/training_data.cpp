@@ -4,10 +4,20 @@
 #include <cstdlib>
 
 #include "base/error.hpp"
+#include "base/text/lower_case.hpp"
 #include "base/text/suggestion.hpp"
 #include "model/train/window_feed.hpp"
 
 namespace actformer::model {
+namespace {
+
+/// What names a device: the key `opencl`, else ACTFORMER_DEVICE; empty where nothing does.
+std::string wish_of(const std::string& opencl) {
+    const char* set = std::getenv("ACTFORMER_DEVICE");
+    return opencl.empty() && set ? set : opencl;
+}
+
+}  // namespace
 
 ingest::Dataset dataset_to_train_on(const std::string& data) {
     if (data.empty()) throw Error("no dataset: give --data DATASET, or data: in the configuration");
@@ -25,12 +35,29 @@ void check_split(const ingest::Dataset& dataset, const std::string& key, const s
                 remedy);
 }
 
-std::optional<kernels::Device> device_that_draws(const std::string& opencl,
+std::size_t device_of_process(const std::vector<kernels::DeviceInfo>& devices, const std::string& opencl,
+                              int local) {
+    const auto chosen = kernels::choose_device(devices, opencl);
+    const auto& first = devices[chosen];
+    const auto wish = lower_case(wish_of(opencl));
+    if (!wish.empty() && wish.find_first_not_of("0123456789") == std::string::npos) return chosen;
+    const bool by_name = wish != lower_case(first.type);
+    std::vector<std::size_t> alike;
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        const auto& d = devices[(chosen + i) % devices.size()];
+        if (d.type == first.type && d.platform == first.platform && d.shares_memory == first.shares_memory &&
+            (!by_name || lower_case(d.name).find(wish) != std::string::npos))
+            alike.push_back(d.index);
+    }
+    return alike[static_cast<std::size_t>(local) % alike.size()];
+}
+
+std::optional<kernels::Device> device_that_draws(const std::string& opencl, int local,
                                                  const std::function<void(const std::string&)>& note) {
     if (opencl == no_opencl) return std::nullopt;
-    const char* set = std::getenv("ACTFORMER_DEVICE");
-    const bool named = !opencl.empty() || (set && *set);
-    if (named || !kernels::list_devices().empty()) return std::optional<kernels::Device>(opencl);
+    const auto devices = kernels::list_devices();
+    if (!devices.empty() || !wish_of(opencl).empty())
+        return std::optional<kernels::Device>(std::to_string(device_of_process(devices, opencl, local)));
     if (note) note("no OpenCL device: the processor draws the windows");
     return std::nullopt;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/view.hpp"
@@ -15,9 +16,15 @@ namespace actformer::model {
 /// The one dataset at `data`, a configuration's key. Throws Error where it is empty or holds several.
 ingest::Dataset dataset_to_train_on(const std::string& data);
 
-/// The device that draws a training's windows, as the key `opencl` names it. None where that is `none`, or where nothing was named and
-/// the machine has no OpenCL, which is noted: the processor draws the same windows then.
-std::optional<kernels::Device> device_that_draws(const std::string& opencl,
+/// Index into `devices` of the one that process `local` of a machine draws on, where `opencl` (else ACTFORMER_DEVICE) names one of them: by a
+/// number it is the same for all; else those of the chosen one's type and driver take turns from it on, with memory of their own as it has, and
+/// called so where part of a name is given. Throws Error as choose_device does.
+std::size_t device_of_process(const std::vector<kernels::DeviceInfo>& devices, const std::string& opencl,
+                              int local);
+
+/// The device that draws the windows of a training's process `local` on this machine (Place), as the key `opencl` names it. None where that is
+/// `none`, or where nothing was named and the machine has no OpenCL, which is noted: the processor draws the same windows then.
+std::optional<kernels::Device> device_that_draws(const std::string& opencl, int local,
                                                  const std::function<void(const std::string&)>& note);
 
 /// Throws Error with the remedy where `dataset` has no split `split`, which the configuration's `key` names.
