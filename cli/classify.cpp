@@ -10,9 +10,11 @@
 #include "base/files/file.hpp"
 #include "base/text/csv.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/motion_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "ingest/export/foreign.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -20,13 +22,16 @@ namespace {
 using Clips = std::vector<eval::Classified>;
 using Names = std::vector<std::string>;
 
+constexpr std::string_view csv_heading =
+    "clip,windows,class,name,probability,runner_up,runner_up_probability\n";
+
 struct ClassifyOptions : MotionOptions {
     std::filesystem::path out;
-    bool json = false;
+    bool force = false, json = false;
 };
 
 std::string csv(const Clips& clips, const Names& names) {
-    std::string out = "clip,windows,class,name,probability,runner_up,runner_up_probability\n";
+    std::string out(csv_heading);
     for (const auto& clip : clips) {
         out += fmt::format("{},{},{},{},{:.6f},", csv_cell(clip.clip), clip.windows, clip.best.label + 1,
                            csv_cell(names[clip.best.label]), clip.best.probability);
@@ -71,6 +76,9 @@ void print_table(const Clips& clips, const Names& names) {
 
 void run(const ClassifyOptions& options) {
     if (!options.out.empty()) check_output(options.out);
+    if (!options.force)
+        ingest::refuse_foreign(options.out, "classes",
+                               [](std::string_view bytes) { return bytes.starts_with(csv_heading); });
     kernels::Device device(options.device);
     eval::FeatureExtractor extractor(device, options.recogniser, options.batch);
     const auto motions = options.open(device, extractor);
@@ -94,6 +102,7 @@ void add_classify(CLI::App& app) {
     auto* command = app.add_subcommand("classify", "The actions of clips without labels");
     add_motion_options(command, *options);
     command->add_option("-o,--out", options->out, "The table as a CSV file")->type_name("CLASSES.csv");
+    add_force_option(command, options->force);
     command->add_flag("--json", options->json, "Print JSON");
     examples(
         command,

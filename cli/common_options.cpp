@@ -8,6 +8,10 @@ void add_device_option(CLI::App* command, std::string& device) {
     command->add_option("--device", device, "OpenCL device: a number, gpu, cpu, or part of a name");
 }
 
+void add_force_option(CLI::App* command, bool& force) {
+    command->add_flag("--force", force, "Replace a file that this program did not write");
+}
+
 void refuse_given(const CLI::App& command, std::initializer_list<const char*> options,
                   const std::string& why) {
     for (const char* option : options)

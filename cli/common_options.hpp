@@ -10,6 +10,9 @@ namespace actformer::cli {
 /// --device: where OpenCL computes (kernels/device.hpp).
 void add_device_option(CLI::App* command, std::string& device);
 
+/// --force: an output may take the place of a file of others (ingest/export/foreign.hpp).
+void add_force_option(CLI::App* command, bool& force);
+
 /// Throws Error where one of `options` was given: "--labels: WHY; leave it out".
 void refuse_given(const CLI::App& command, std::initializer_list<const char*> options,
                   const std::string& why);

@@ -300,8 +300,11 @@ void run(const CompareOptions& options) {
     const auto warnings = warnings_of(a, b);
     add_table(sweep, all, out);
     reports::write_results(sweep, plan, out);
-    write_report(
-        {.folders = {out}, .out = out / "report.html", .title = "A comparison", .filled_only = true});
+    write_report({.folders = {out},
+                  .out = out / "report.html",
+                  .title = "A comparison",
+                  .force = true,
+                  .filled_only = true});
     if (options.json)
         fmt::print("{}\n", to_json(all, warnings, out / "report.html").dump(2));
     else

@@ -8,10 +8,13 @@
 #include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/format.hpp"
 #include "cli/motion_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "eval/scoring/features_file.hpp"
+#include "ingest/export/foreign.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -19,7 +22,7 @@ namespace {
 struct FeaturesOptions : MotionOptions {
     std::filesystem::path out;
     std::optional<std::uint64_t> initial_noise;
-    bool json = false;
+    bool force = false, json = false;
 };
 
 void print(const FeaturesOptions& options, const eval::FeaturesSummary& s) {
@@ -39,6 +42,9 @@ void print(const FeaturesOptions& options, const eval::FeaturesSummary& s) {
 }
 
 void run(const FeaturesOptions& options) {
+    if (!options.force)
+        ingest::refuse_foreign(options.out, "features",
+                               [&](std::string_view) { return eval::is_own_features(options.out); });
     kernels::Device device(options.device);
     eval::FeatureExtractor extractor(device, options.recogniser, options.batch,
                                      eval::FeatureExtractor::Persons::together, options.initial_noise);
@@ -65,6 +71,7 @@ void add_features(CLI::App& app) {
             "--initial-noise", options->initial_noise,
             "Seed of the states that a GRU recogniser begins with, as published (default: they begin at 0)")
         ->type_name("SEED");
+    add_force_option(command, options->force);
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer features --recogniser run generated.h5 -o generated-features.h5\n"

@@ -10,9 +10,11 @@
 #include "base/files/file.hpp"
 #include "base/process/interruption.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/format.hpp"
 #include "cli/report.hpp"
 #include "cli/say.hpp"
+#include "ingest/export/foreign.hpp"
 #include "reports/page/exports.hpp"
 #include "reports/page/page.hpp"
 #include "reports/page/row_tables.hpp"
@@ -63,11 +65,23 @@ void watch(const ReportOptions& options, unsigned seconds) {
     }
 }
 
+void refuse_foreign(const ReportOptions& options) {
+    ingest::refuse_foreign(options.out, "report", [](std::string_view bytes) {
+        return bytes.find(reports::in_every_page) != bytes.npos;
+    });
+    ingest::refuse_foreign(options.csv, "tables",
+                           [](std::string_view bytes) { return bytes.starts_with(reports::csv_beginning); });
+    ingest::refuse_foreign(options.latex, "tables", [](std::string_view bytes) {
+        return bytes.starts_with(reports::latex_beginning);
+    });
+}
+
 }  // namespace
 
 bool write_report(const ReportOptions& options) {
     for (const auto& path : {options.out, options.csv, options.latex})
         if (!path.empty()) check_output(path);
+    if (!options.force) refuse_foreign(options);
     auto measured = reports::read_measured(options.folders);
     auto tables = reports::fill_tables(measured);
     if (options.filled_only || !fills_papers(tables))
@@ -111,6 +125,7 @@ void add_report(CLI::App& app) {
                      "Write it anew every so many seconds until sweeps and trainings are done")
         ->check(CLI::Range(1, 86400))
         ->type_name("SECONDS");
+    add_force_option(command, options->force);
     command->add_flag("--json", options->json, "Print the tables as JSON");
     examples(command,
              "  actformer report out/mini -o report.html\n"

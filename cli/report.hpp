@@ -12,6 +12,7 @@ struct ReportOptions {
     std::filesystem::path out{}, csv{}, latex{};  ///< empty: not written
     std::string title = "ActFormer, measured";
     double motion_megabytes = 12;
+    bool force = false;  ///< replace files of others, too
     bool json = false;
     bool filled_only =
         false;  ///< leave out tables that nothing was run for; they are where no row is for the papers' ones

@@ -26,6 +26,7 @@
 #include "eval/scoring/motions_file_source.hpp"
 #include "eval/scoring/score.hpp"
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/export/foreign.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -43,7 +44,7 @@ struct ScoreOptions {
     std::uint64_t seed = 0;
     std::string protocol = "actformer";
     std::uint32_t samples = 0;  ///< most motions that ACTOR's protocol makes; 0: 3000
-    bool kid = false, fid_infinity = false, json = false;
+    bool kid = false, fid_infinity = false, force = false, json = false;
     bool repeats_given = false, per_class_given = false;
 
     bool as_actor() const { return protocol == "actor"; }
@@ -255,10 +256,16 @@ void refuse_without_effect(const CLI::App& command, const ScoreOptions& options)
                      "takes a --recogniser that sees all persons; --single-recogniser alone gives FIDa");
 }
 
+bool are_own_scores(std::string_view bytes) {
+    const auto scores = nlohmann::json::parse(bytes);
+    return scores.contains("per_class") && scores.contains("provenance");
+}
+
 void run(const ScoreOptions& options, const eval::GenerateSets& generate) {
     if (options.samples > 0 && (!options.as_actor() || options.generate.generator.empty()))
         throw Error("--samples is for --protocol actor with --generator; --per-class is for the others");
     if (!options.out.empty()) check_output(options.out);
+    if (!options.force) ingest::refuse_foreign(options.out, "scores", are_own_scores);
     WorkFolder work(options.out);
     const auto scored = scored_by(options, generate, work.path());
     for (const auto& note : scored.notes) say(stderr, "{}\n", note);
@@ -357,6 +364,7 @@ void add_score(CLI::App& app, const eval::GenerateSets& generate) {
         ->type_name("DIR");
     command->add_option("-o,--out", options->out, "Scores as JSON; interrupted, it goes on where it was")
         ->type_name("SCORES.json");
+    add_force_option(command, options->force);
     command->add_flag("--json", options->json, "Print JSON");
     examples(
         command,

@@ -65,6 +65,11 @@ void FeaturesFile::finish() {
     writer_.finish();
 }
 
+bool is_own_features(const std::filesystem::path& path) {
+    const hdf5::Reader file(path);
+    return file.has("features") && file.has_attribute("recogniser") && file.has_attribute("view");
+}
+
 bool is_as_written(const std::filesystem::path& path) {
     std::error_code ignored;
     return std::filesystem::is_regular_file(path, ignored) &&

@@ -45,6 +45,10 @@ struct StoredFeatures {
 /// shape, not finite, or no label.
 StoredFeatures read_features(const std::filesystem::path& path);
 
+/// Whether a file holds features that this program wrote: they name the view of the motions that they are of. Throws Error where it is no
+/// HDF5 file.
+bool is_own_features(const std::filesystem::path& path);
+
 /// Whether a file that this program keeps for itself is there, and has the checksum that it was written with.
 bool is_as_written(const std::filesystem::path& path);
 

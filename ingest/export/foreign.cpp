@@ -74,7 +74,7 @@ bool holds_something(const fs::path& path) {
     return fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) > 0;
 }
 
-[[noreturn]] void refuse(const fs::path& path, const char* why) {
+[[noreturn]] void refuse(const fs::path& path, std::string_view why) {
     throw Error("{}: is there, and {}; choose another name, or replace it with --force", path.string(), why);
 }
 
@@ -88,6 +88,16 @@ void refuse_foreign(const fs::path& path) {
 
 void refuse_foreign_weights(const fs::path& path) {
     if (holds_something(path) && !is_imported(path)) refuse(path, "holds no weights that import wrote");
+}
+
+void refuse_foreign(const fs::path& path, std::string_view what,
+                    const std::function<bool(std::string_view)>& is_own) {
+    if (!holds_something(path)) return;
+    try {
+        if (is_own(MappedFile(path).text())) return;
+    } catch (const std::exception&) {  // of another kind, or damaged
+    }
+    refuse(path, fmt::format("holds no {} that this program wrote", what));
 }
 
 }  // namespace actformer::ingest

@@ -167,8 +167,8 @@ nlohmann::ordered_json to_json(const std::vector<FilledTable>& tables,
 }
 
 std::string to_csv(const std::vector<FilledTable>& tables) {
-    std::string out =
-        "table,row,dataset,metric,state,mean,ci95,over,repeats,paper,paper_ci95,origin,near_chance\n";
+    std::string out(csv_beginning);
+    out += "state,mean,ci95,over,repeats,paper,paper_ci95,origin,near_chance\n";
     for (const auto& table : tables)
         for (std::size_t r = 0; r < table.rows.size(); ++r)
             for (std::size_t c = 0; c < table.rows[r].size(); ++c) {
@@ -185,7 +185,8 @@ std::string to_csv(const std::vector<FilledTable>& tables) {
 }
 
 std::string to_latex(const std::vector<FilledTable>& tables) {
-    std::string out = "% Written by `actformer report`; needs the package booktabs.\n";
+    std::string out(latex_beginning);
+    out += "; needs the package booktabs.\n";
     for (const auto& table : tables) out.append("\n").append(latex_table(table));
     return out;
 }

@@ -1,6 +1,8 @@
 // The tables for other programs and for papers.
 #pragma once
 
+#include <string_view>
+
 #include "reports/page/tables.hpp"
 
 namespace actformer::reports {
@@ -10,6 +12,10 @@ namespace actformer::reports {
 /// "paper_ci95", "paper_at_hand"}}}]}]}], "notices": [..]}; null where nothing was measured, or the paper prints nothing.
 nlohmann::ordered_json to_json(const std::vector<FilledTable>& tables,
                                const std::vector<std::string>& notices);
+
+/// What CSV and LaTeX tables begin with, by which a report's are told from others'.
+inline constexpr std::string_view csv_beginning = "table,row,dataset,metric,",
+                                  latex_beginning = "% Written by `actformer report`";
 
 /// One line a cell: table,row,dataset,metric,state,mean,ci95,over,repeats,paper,paper_ci95,origin,near_chance.
 std::string to_csv(const std::vector<FilledTable>& tables);

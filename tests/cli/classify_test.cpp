@@ -160,6 +160,15 @@ TEST_F(Classify, RefusesWhatDoesNotFit) {
     EXPECT_NE(result.output.find("weights-"), std::string::npos) << result.output;
 }
 
+TEST_F(Classify, ReplacesItsTableAndNoFileOfOthers) {
+    write_file(dir / "c.csv", "clip,mark\nwalk,1\n");
+    const auto to = toy().string() + " -o " + at("c.csv");
+    test::expect_refused(classify(to), {"c.csv: is there, and holds no classes", "--force"});
+    EXPECT_EQ(read_file(dir / "c.csv"), "clip,mark\nwalk,1\n");
+    EXPECT_EQ(classify(to + " --force").exit, 0);
+    EXPECT_EQ(classify(to + " --window 10").exit, 0) << "its own table, now";
+}
+
 TEST_F(Classify, TakesTheBestWeightsOfATraining) {
     std::filesystem::create_directory(dir / "run");
     const auto with = [&](const char* file, unsigned seed) {

@@ -170,6 +170,23 @@ TEST_F(Features, RefuseWhatDoesNotFit) {
     expect_refused(features("m.h5"), {"w.h5", "HDF5"});
 }
 
+TEST_F(Features, ReplaceFeaturesAndNoFilesOfOthers) {
+    weights(3, 4, eval::ntu_graph());
+    motions({{"A001_0", 20}});
+    const auto shard = dataset() / "ntu-1p/shard-00000.h5";
+    for (const auto& other : {shard, dir / "w.h5", dir / "m.h5"}) {
+        fs::copy_file(other, dir / "f.h5");
+        test::expect_refused(features("m.h5"), {"f.h5: is there, and holds no features", "--force"});
+        EXPECT_EQ(read_file(dir / "f.h5"), read_file(other));
+        fs::remove(dir / "f.h5");
+    }
+    write_file(dir / "f.h5", "years of work");
+    test::expect_refused(features("m.h5"), {"f.h5: is there"});
+    ASSERT_EQ(features("m.h5", "--force").exit, 0);
+    ASSERT_EQ(features("m.h5", "--frames 10").exit, 0) << "features, now";
+    EXPECT_EQ(Reader(dir / "f.h5").attribute_numbers("frames").front(), 10);
+}
+
 TEST_F(Features, RefuseDatasetsOfAnotherKind) {
     fs::create_symlink(dataset() / "ntu-1p", dir / "data");
     const auto classes = static_cast<std::uint32_t>(ingest::Dataset(dir / "data").header().classes.size());

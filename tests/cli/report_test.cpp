@@ -262,6 +262,20 @@ TEST_F(ReportPage, RefusesWhatIsNoSweepAndSaysWhy) {
     EXPECT_FALSE(fs::exists(dir / "r.html"));
 }
 
+TEST_F(ReportPage, ReplacesReportsAndNoFilesOfOthers) {
+    write_file(dir / "mine", "<!doctype html> table,row,dataset,metric, Written by `actformer report`");
+    for (const auto* option : {"-o ", "--csv ", "--latex "}) {
+        expect_refused(report(option + at("mine")), {"mine: is there, and holds no ", "--force"});
+        expect_refused(report(option + swept().at("ntu-1p.h5")), {"ntu-1p.h5: is there"});
+        fs::copy_file(dir / "mine", dir / "other");
+        EXPECT_EQ(report(option + at("other") + " --force").exit, 0);
+        const auto made = read_file(dir / "other");
+        EXPECT_EQ(report(option + at("other")).exit, 0) << "its own, now";
+        EXPECT_EQ(read_file(dir / "other"), made);
+        fs::remove(dir / "other");
+    }
+}
+
 TEST_F(ReportPage, WorksInABrowser) {
     ASSERT_EQ(report("-o " + at("r.html")).exit, 0);
     const auto result = in_browser("r.html");

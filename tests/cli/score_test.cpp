@@ -403,6 +403,22 @@ TEST_F(Score, KeepsTheRealSide) {
     EXPECT_EQ(nlohmann::json::parse(without.output), first) << "where there can be no cache";
 }
 
+TEST_F(Score, ReplacesScoresAndNoFilesOfOthers) {
+    features("real.h5", {0, 0, 1, 1, 2, 2});
+    const auto scoring = "--real-features " + at("real.h5") + " --generated-features " + at("real.h5");
+    const auto own = (datasets() / "ntu-1p/dataset.json").string();
+    for (const std::string text : {"years of work", "{\"checksum\": \"mine\"}", "[]"}) {
+        write_file(dir / "s.json", text);
+        test::expect_refused(score(scoring + " -o " + at("s.json")),
+                             {"s.json: is there, and holds no scores", "--force"});
+        EXPECT_EQ(read_file(dir / "s.json"), text);
+    }
+    test::expect_refused(score(scoring + " -o " + own), {"dataset.json: is there"});
+    EXPECT_EQ(score(scoring + " -o " + at("s.json") + " --force").exit, 0);
+    EXPECT_EQ(score(scoring + " --seed 3 -o " + at("s.json")).exit, 0) << "scores, now";
+    EXPECT_EQ(nlohmann::json::parse(read_file(dir / "s.json"))["provenance"]["seed"], 3);
+}
+
 TEST_F(Score, RefusesOptionsWithoutEffect) {
     motions("m.h5", 4, 3);
     features("r.h5", labels_of({3, 3, 3}));
