@@ -1,7 +1,10 @@
 // Words that the program does not know.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "tests/support/command.hpp"
+#include "tests/support/temp_dir.hpp"
 
 using namespace actformer::test;
 
@@ -30,6 +33,23 @@ TEST(Program, SuggestsTheOptionThatWasMeant) {
     EXPECT_EQ(
         result.output,
         "actformer: there is no option '--clps'; did you mean --clips? (see actformer synth ntu --help)\n");
+}
+
+TEST(Program, MixesNoSyntheticClipsWithOthers) {
+    const TempDir dir;
+    const auto synth = [&](const std::string& options) {
+        return run_actformer("synth ntu -o " + (dir / "raw").string() + options);
+    };
+    const std::string four = " --clips 4 --actions 9,10";
+    ASSERT_EQ(synth(four).exit, 0);
+    EXPECT_EQ(synth(four).exit, 0) << "the same call again";
+    EXPECT_EQ(synth(" --clips 6 --actions 9,10").exit, 0) << "a set can grow";
+    expect_refused(synth(four), {"raw: holds 2 .skeleton files that these options do not make", "-o"});
+    expect_refused(synth(" --clips 6 --actions 9"), {"A010.skeleton"});
+    write_file(dir / "real/S001C001P001R001A009.skeleton", "1");
+    expect_refused(run_actformer("synth ntu -o " + (dir / "real").string() + " --clips 6 --actions 9,10"),
+                   {"real: holds 1 .skeleton file", "S001C001P001R001A009.skeleton"});
+    EXPECT_FALSE(std::filesystem::exists(dir / "real/ORIGIN")) << "they are recorded still";
 }
 
 TEST(Program, SaysWhatIsWrongWithOptionsThatItKnows) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <mutex>
 #include <numeric>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/threads/parallel.hpp"
@@ -41,10 +42,27 @@ std::vector<int> checked_actions(const NtuOptions& options) {
     return actions;
 }
 
+/// Whoever ingests the folder would take them together. Before synth.json is there, no file is of this program.
+void refuse_other_clips(const NtuOptions& options, const std::vector<int>& actions) {
+    std::set<std::string> there;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(options.folder, ignored))
+        if (entry.path().extension() == ".skeleton") there.insert(entry.path().stem().string());
+    if (there.empty()) return;
+    if (fs::exists(options.folder / "synth.json"))
+        for (std::uint64_t i = 0; i < options.clips; ++i) there.erase(synth::clip_at(i, actions).name());
+    if (!there.empty())
+        throw Error(
+            "{}: holds {} .skeleton files that these options do not make, as {}.skeleton; choose another "
+            "folder with -o, or give the --actions and at least the --clips that they were made with",
+            options.folder.string(), there.size(), *there.begin());
+}
+
 }  // namespace
 
 NtuSummary synthesise_ntu(const NtuOptions& options, const std::function<void(std::uint64_t)>& progress) {
     const auto actions = checked_actions(options);
+    refuse_other_clips(options, actions);
     claim_folder(options.folder, "actformer synth ntu", options.seed);
     const auto threads = thread_count(options.threads);
     std::vector<std::string> texts(threads);

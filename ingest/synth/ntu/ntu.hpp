@@ -27,7 +27,7 @@ struct NtuSummary {
 
 /// Writes clips into the folder, each file whole or not at all. Clips that are there from an earlier run with
 /// the same seed are kept. `progress` is told how many are done. The bytes of a clip depend on its name and
-/// the seed alone. Throws Error naming the file and the remedy.
+/// the seed alone. Throws Error naming the file and the remedy, also for a folder that holds .skeleton files that these options do not make.
 NtuSummary synthesise_ntu(const NtuOptions& options, const std::function<void(std::uint64_t)>& progress = {});
 
 /// The text of one clip.
