@@ -236,12 +236,6 @@ void add_table(reports::Sweep& sweep, const std::vector<Compared>& all, const fs
     sweep.tables = Json{{id, table}}.dump();  // JSON is YAML
 }
 
-/// Also what comes with the program, as weights/cmu/actformer.h5; as it is where there is neither, which the plan says.
-fs::path found(const fs::path& path) {
-    const auto shipped = shipped_folder() / path;
-    return !fs::exists(path) && fs::exists(shipped) ? shipped : path;
-}
-
 /// A folder that holds something else would lose it, or be taken for the comparison.
 void refuse_other_than_comparisons(const fs::path& out) {
     refuse_other_folders(out);
@@ -353,8 +347,8 @@ void add_compare(CLI::App& app) {
         "Differences are taken seed by seed. A difference whose 95 % interval contains 0 is not "
         "significant. Where nearest to real is best, distances from real are compared.\n");
     command->callback([options, command] {
-        options->a = found(options->a);
-        options->b = found(options->b);
+        options->a = here_or_shipped(options->a);
+        options->b = here_or_shipped(options->b);
         if (holds_motions(options->a) && holds_motions(options->b))
             refuse_given(*command, {"--repeats", "--per-class"}, "motions files are scored as they are");
         run(*options);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files/full_path.hpp"
+#include "base/process/shipped.hpp"
 #include "base/text/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -127,7 +128,7 @@ std::string dataset_name(const std::filesystem::path& out) {
 
 void run(const IngestOptions& options, const ingest::IngestCommand& command) {
     ingest::IngestRequest request;
-    request.raw.assign(options.raw.begin(), options.raw.end());
+    for (const auto& raw : options.raw) request.raw.push_back(here_or_shipped(raw));
     request.out = options.out;
     while (request.out.has_relative_path() && !request.out.has_filename())
         request.out = request.out.parent_path();

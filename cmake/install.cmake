@@ -1,13 +1,13 @@
 # What `cmake --install` puts where. The tree may be moved as a whole: the program finds what belongs to it by where it lies.
 #
 #   bin/actformer                       libexec/actformer/actformer-render, actformer-train and its .so
-#   share/actformer/model/configs       share/actformer/reports/sweeps, share/actformer/weights/cmu
+#   share/actformer/model/configs       share/actformer/reports/sweeps, share/actformer/{weights,examples}/cmu
 #   share/man/man1                      share/doc/actformer
 #   share/{bash-completion/completions,zsh/site-functions,fish/vendor_completions.d}
 include(GNUInstallDirs)
 
 # What comes with the program lies beside it where it was built, too.
-foreach(folder model/configs reports/sweeps weights/cmu)
+foreach(folder model/configs reports/sweeps weights/cmu examples/cmu)
   cmake_path(GET folder PARENT_PATH room)
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/share/actformer/${room})
   file(CREATE_LINK ${CMAKE_SOURCE_DIR}/${folder} ${CMAKE_BINARY_DIR}/share/actformer/${folder} SYMBOLIC)
@@ -24,6 +24,9 @@ endif()
 
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION share/doc/actformer COMPONENT docs)
 install(DIRECTORY docs python DESTINATION share/doc/actformer COMPONENT docs PATTERN __pycache__ EXCLUDE)
+# What the README links to.
+install(FILES examples/cmu/README.md DESTINATION share/doc/actformer/examples/cmu COMPONENT docs)
+install(FILES weights/cmu/README.md weights/cmu/motions.gif DESTINATION share/doc/actformer/weights/cmu COMPONENT docs)
 
 # Each package has the licence, the weights' own too.
 foreach(component program=actformer training=actformer-train docs=actformer-doc)
@@ -31,7 +34,6 @@ foreach(component program=actformer training=actformer-train docs=actformer-doc)
   list(POP_FRONT component name)
   install(FILES LICENSE DESTINATION share/doc/${component} RENAME copyright COMPONENT ${name})
 endforeach()
-install(DIRECTORY examples/cmu DESTINATION share/actformer/examples COMPONENT program)
 
 # Man pages and completions, which the program itself writes.
 install(CODE "

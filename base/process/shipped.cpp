@@ -35,6 +35,14 @@ fs::path shipped_folder() {
     return {};
 }
 
+fs::path here_or_shipped(const fs::path& path) {
+    std::error_code ignored;
+    const auto folder = shipped_folder();
+    if (path.empty() || path.is_absolute() || folder.empty() || fs::exists(path, ignored)) return path;
+    auto shipped = folder / path;
+    return fs::exists(shipped, ignored) ? shipped : path;
+}
+
 fs::path file_or_shipped(const fs::path& named, const std::string& folder) {
     if (is_file(named)) return named;
     const auto shipped = shipped_folder();

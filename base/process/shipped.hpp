@@ -11,6 +11,9 @@ namespace actformer {
 /// Empty where nothing comes with this program.
 std::filesystem::path shipped_folder();
 
+/// `path` itself, or where nothing is there what comes with the program under it, as examples/cmu/cmu.tar.xz; itself where neither is.
+std::filesystem::path here_or_shipped(const std::filesystem::path& path);
+
 /// What a user calls `named`: that file where it is there, else one that comes with the program, called as it lies there or by its
 /// name alone, its ending .yaml left out or not. `folder` is where such files lie, as in "model/configs". Throws Error with what may
 /// have been meant where there is neither.

@@ -2,12 +2,29 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <regex>
+#include <vector>
 
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer::test;
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Of Markdown pages; those to other machines aside.
+void expect_links_lead_somewhere(const std::vector<fs::path>& pages) {
+    const std::regex link(R"(\]\(([^)#:\s]+)(#[^)]*)?\))");
+    for (const auto& page : pages) {
+        const auto text = read_file(page);
+        EXPECT_NE(text, "") << page;
+        for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at)
+            EXPECT_TRUE(fs::exists(page.parent_path() / at->str(1))) << page << ": " << at->str(1);
+    }
+}
+
+}  // namespace
 
 TEST(Install, WorksWhereverItIsMovedTo) {
     const TempDir dir;
@@ -28,6 +45,11 @@ TEST(Install, WorksWhereverItIsMovedTo) {
         return run_command("cd " + (dir / "empty").string() + " && PATH='" + (root / "bin").string() +
                            "':$PATH && actformer " + words);
     };
+    const auto docs = root / "share/doc/actformer";
+    expect_links_lead_somewhere(
+        {docs / "README.md", docs / "examples/cmu/README.md", docs / "weights/cmu/README.md"});
+    const auto cmu = here("ingest bvh examples/cmu/cmu.tar.xz -o cmu --name '{part}/{action}/{*}'");
+    EXPECT_EQ(cmu.exit, 0) << cmu.output;
     EXPECT_EQ(here("synth ntu -o raw --clips 6 --actions 9,10").exit, 0);
     EXPECT_EQ(here("ingest ntu raw -o ntu").exit, 0);
     const auto picture = here("render ntu/ntu-1p --count 1 -o sheet.png");
