@@ -1,9 +1,11 @@
 // actformer import: weights that others released, read without running anything.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/files/nearest_file.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"
@@ -44,7 +46,10 @@ void add_files(CLI::App* command, ImportOptions<Request>& options) {
         ->add_option("file", request.file,
                      "A state_dict, or a dict that holds state_dicts, saved by torch.save")
         ->required()
-        ->check(CLI::ExistingFile)
+        ->check([](const std::string& file) {
+            return std::filesystem::exists(file) ? ""
+                                                 : fmt::format("no such file {}{}", file, did_you_mean(file));
+        })
         ->type_name("FILE");
     command
         ->add_option("--data", request.data,

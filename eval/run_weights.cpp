@@ -1,15 +1,21 @@
 #include "eval/run_weights.hpp"
 
 #include "base/error.hpp"
+#include "base/files/nearest_file.hpp"
 #include "base/process/shipped.hpp"
 
 namespace actformer::eval {
 
-std::filesystem::path weights_of(const std::filesystem::path& run) {
+std::filesystem::path weights_of(const std::filesystem::path& named) {
+    const auto run = here_or_shipped(named);
     std::error_code ignored;
-    if (!std::filesystem::exists(run, ignored) && run.is_relative())
-        if (auto shipped = shipped_folder() / run; std::filesystem::is_regular_file(shipped, ignored))
-            return shipped;
+    if (!std::filesystem::exists(run, ignored)) {
+        auto meant = did_you_mean(run);
+        if (const auto shipped = shipped_folder();
+            meant.empty() && !shipped.empty() && run.is_relative() && run.has_parent_path())
+            meant = did_you_mean(shipped / run);
+        throw Error("{}: no such file or folder{}", run.string(), meant);
+    }
     if (!std::filesystem::is_directory(run, ignored)) return run;
     for (const auto* name : {"weights-best.h5", "weights-average.h5", "weights-last.h5"})
         if (std::filesystem::exists(run / name, ignored)) return run / name;

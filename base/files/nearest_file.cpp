@@ -16,7 +16,8 @@ namespace {
 /// The entry of its folder that is called most like it; empty where none is.
 fs::path nearest_entry(const fs::path& missing) {
     constexpr std::size_t most = 10'000;  // a folder of a million clips is not searched
-    constexpr std::size_t sure = 2;       // letters that few mistype: files are called in too many ways
+    // Files are called in too many ways: their first letters must be those, or all but one letter of the name.
+    constexpr std::size_t sure = 2;
     const auto name = missing.filename().string();
     std::vector<std::string> names;
     std::error_code ignored;
@@ -24,7 +25,7 @@ fs::path nearest_entry(const fs::path& missing) {
     for (fs::directory_iterator at(folder, ignored), end; !ignored && at != end && names.size() < most;
          at.increment(ignored))
         if (auto other = at->path().filename().string();
-            other != name && other.starts_with(name.substr(0, sure)))
+            other != name && (other.starts_with(name.substr(0, sure)) || edit_distance(name, other) == 1))
             names.push_back(std::move(other));
     const auto nearest = nearest_word(name, names);
     return nearest.empty() ? fs::path{} : missing.parent_path() / nearest;

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 namespace actformer {
-namespace {
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -19,8 +18,6 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
         }
     return d[a.size()][b.size()];
 }
-
-}  // namespace
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
     std::string best;

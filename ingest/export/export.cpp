@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/printable.hpp"
+#include "base/text/suggestion.hpp"
 #include "ingest/export/export_format.hpp"
 #include "ingest/export/fit_name.hpp"
 #include "ingest/export/foreign.hpp"
@@ -18,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string format_names(std::string_view before) {
-    std::string names;
-    for (const auto& format : export_formats())
-        names += fmt::format("{}{}{}", names.empty() ? "" : ", ", before, format.name);
+/// As in ".bvh" where `before` is a dot.
+std::vector<std::string> format_names(std::string_view before) {
+    std::vector<std::string> names;
+    for (const auto& format : export_formats()) names.push_back(fmt::format("{}{}", before, format.name));
     return names;
 }
 
@@ -40,14 +41,18 @@ Target target_of(const ExportRequest& request) {
     if (request.format.empty()) {
         if (is_folder)
             throw Error("{}: a folder takes a file a clip: say of what kind with --format, one of {}", out,
-                        format_names(""));
+                        fmt::join(format_names(""), ", "));
         if (!by_ending)
-            throw Error("{}: ends in none of {}; or give --format to make a folder of it with a file a clip",
-                        out, format_names("."));
+            throw Error(
+                "{}: ends in none of {}; or give --format to make a folder of it with a file a clip{}", out,
+                fmt::join(format_names("."), ", "),
+                ending.empty() ? "" : suggestion(ending, format_names(".")));
         return {by_ending, false};
     }
     const auto* named = export_format(request.format);
-    if (!named) throw Error("--format {}: there is {}", in_quotes(request.format), format_names(""));
+    if (!named)
+        throw Error("--format {}: there is {}{}", in_quotes(request.format),
+                    fmt::join(format_names(""), ", "), suggestion(request.format, format_names("")));
     if (is_folder || !by_ending) return {named, true};
     if (by_ending != named)
         throw Error("{}: ends in {}, but --format says {}; leave one of them out", out, ending,

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/lower_case.hpp"
+#include "base/text/suggestion.hpp"
 #include "reports/pictures/gif.hpp"
 #include "reports/pictures/video.hpp"
 
@@ -17,8 +18,8 @@ PictureKind picture_kind(const std::filesystem::path& path) {
     if (extension == ".gif") return PictureKind::gif;
     if (extension == ".mp4") return PictureKind::mp4;
     throw Error(
-        "cannot tell what to draw from '{}': give a name that ends in .png (contact sheet), .gif or .mp4",
-        path.string());
+        "cannot tell what to draw from '{}': give a name that ends in .png (contact sheet), .gif or .mp4{}",
+        path.string(), suggestion(extension, {".png", ".gif", ".mp4"}));
 }
 
 void write_png(const std::filesystem::path& path, const cv::Mat& picture) {

@@ -59,7 +59,8 @@ class Section {
         if (const auto like = own["like"]) {
             const auto other = place_.as<std::string>(like, "like", "a name");
             if (!node_[other])
-                place_.fail(like, fmt::format("{}: there is no '{}' to be like", name_, other));
+                place_.fail(like, fmt::format("{}: there is no '{}' to be like{}", name_, other,
+                                              suggestion(other, names())));
             out = entry(other);
             out.erase("fills");
         }
@@ -70,6 +71,12 @@ class Section {
     }
 
   private:
+    std::vector<std::string> names() const {
+        std::vector<std::string> out;
+        for (const auto& item : node_) out.push_back(item.first.Scalar());
+        return out;
+    }
+
     const Place& place_;
     Node node_;
     std::string name_;
@@ -110,14 +117,17 @@ class Taker {
                     place_.as<std::string>(item.second, item.first.Scalar(), "one value");
         });
     }
-    void end(const std::string& of, const std::string& known) {
+    void end(const std::string& of) {
+        known_.emplace_back("like");
         for (const auto& [key, node] : entry_)
-            place_.fail(node, fmt::format("{} has no key '{}'; it takes {}", of, key, known));
+            place_.fail(node, fmt::format("{} has no key '{}'{}; it takes {}", of, key,
+                                          suggestion(key, known_), fmt::join(known_, ", ")));
     }
 
   private:
     template <typename Use>
     void take(const char* key, Use use) {
+        known_.emplace_back(key);
         const auto found = entry_.find(key);
         if (found == entry_.end()) return;
         use(found->second);
@@ -126,15 +136,16 @@ class Taker {
 
     const Place& place_;
     Entry entry_;
+    std::vector<std::string> known_;  ///< the keys that were asked for
 };
 
 void check_format(const Place& place, const Node& where, const std::string& dataset,
                   const std::string& format) {
-    std::vector<std::string_view> known;
-    for (const auto& one : ingest::formats()) known.push_back(one.name);
+    std::vector<std::string> known;
+    for (const auto& one : ingest::formats()) known.emplace_back(one.name);
     if (std::ranges::find(known, format) == known.end())
-        place.fail(where, fmt::format("dataset '{}': there is no format '{}'; there are {}", dataset, format,
-                                      fmt::join(known, ", ")));
+        place.fail(where, fmt::format("dataset '{}': there is no format '{}'{}; there are {}", dataset,
+                                      format, suggestion(format, known), fmt::join(known, ", ")));
 }
 
 /// Keys that say nothing of a dataset that is `there` by that key.
@@ -160,7 +171,7 @@ SweepDataset dataset(const Place& place, const Node& where, const std::string& n
     take.number("seed", out.seed);
     take.text("actions", out.actions);
     take.text("use", out.use);
-    take.end("a dataset", "path, format, raw, arguments, clips, seed, actions, use, like");
+    take.end("a dataset");
     if (!out.path.empty() + !out.raw.empty() + (out.clips > 0) != 1)
         place.fail(where, fmt::format("dataset '{}' must say one of path, raw and clips", name));
     check_format(place, where, name, out.format);
@@ -174,7 +185,7 @@ SweepRecogniser recogniser(const Place& place, const Node& where, const std::str
     take.text("config", out.config);
     take.text("weights", out.weights);
     take.settings("set", out.set);
-    take.end("a recogniser", "data, config, set, weights, like");
+    take.end("a recogniser");
     if (out.weights.empty() && (out.data.empty() || out.config.empty()))
         place.fail(where, fmt::format("recogniser '{}' must say data and config, or weights", name));
     return out;
@@ -198,11 +209,7 @@ SweepRow row(const Place& place, const Node& where, const std::string& name, Ent
     take.text("split", out.split);
     take.text("device", out.device);
     take.list("fills", out.fills, "cells");
-    take.end("a row",
-             "data, recogniser, single_recogniser, config, weights, motions, set, seeds, repeats, per_class, "
-             "window, "
-             "split, "
-             "device, fills, like");
+    take.end("a row");
     if (out.data.empty() || (out.recogniser.empty() && out.single_recogniser.empty()))
         place.fail(where, fmt::format("row '{}' must say data and recogniser, or single_recogniser", name));
     if (out.config.empty() && out.weights.empty() && out.motions.empty())

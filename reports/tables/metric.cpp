@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
+#include "base/text/suggestion.hpp"
 
 namespace actformer::reports {
 
@@ -21,10 +23,10 @@ const char* name_of(eval::Direction better) {
 const eval::Metric& scored_metric(std::string_view name) {
     const auto* known = eval::find_metric(name);
     if (!known) {
-        std::string all;
-        for (const auto& metric : eval::metrics())
-            all += (all.empty() ? "" : ", ") + std::string(metric.name);
-        throw Error("there is no metric '{}'; there are {}", name, all);
+        std::vector<std::string> all;
+        for (const auto& metric : eval::metrics()) all.emplace_back(metric.name);
+        throw Error("there is no metric '{}'{}; there are {}", name, suggestion(std::string(name), all),
+                    fmt::join(all, ", "));
     }
     return *known;
 }

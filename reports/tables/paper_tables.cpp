@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/text/suggestion.hpp"
 #include "reports/tables/table_file.hpp"
 #include "reports/tables/table_reader.hpp"
 
@@ -20,12 +21,13 @@ YAML::Node parsed(std::string_view yaml, const std::string& file) {
 template <typename Items, typename Name>
 std::size_t index_of(const Items& items, const std::string& wanted, Name name, const std::string& cell,
                      const char* what) {
-    std::string all;
+    std::vector<std::string> all;
     for (std::size_t i = 0; i < items.size(); ++i) {
         if (items[i].*name == wanted) return i;
-        all += (all.empty() ? "" : ", ") + items[i].*name;
+        all.push_back(items[i].*name);
     }
-    throw Error("cell '{}': there is no {} '{}'; there are {}", cell, what, wanted, all);
+    throw Error("cell '{}': there is no {} '{}'{}; there are {}", cell, what, wanted, suggestion(wanted, all),
+                fmt::join(all, ", "));
 }
 
 std::vector<PaperTable> all_tables() {

@@ -67,6 +67,13 @@ TEST_F(Shipped, ASweepFindsTheConfigurationsThatItNames) {
 }
 
 TEST_F(Shipped, MistypedNamesGetASuggestion) {
+    const auto classify = "classify m.h5 --recogniser ";
+    expect_refused(here(classify + std::string("weights/cmu/recognisr.h5")),
+                   {"weights/cmu/recognisr.h5: no such file", "weights/cmu/recogniser.h5?"});
+    write_file(dir / "walks.h5", "");
+    expect_refused(here("render wlaks.h5 -o x.png"), {"wlaks.h5: no such file", "did you mean walks.h5?"});
+    expect_refused(here("export wlaks.h5 -o x.npz"), {"did you mean walks.h5?"});
+    expect_refused(here(classify + std::string("wlaks.h5")), {"did you mean walks.h5?"});
     expect_refused(here("sweep mni -o out"), {"mni: no such file", "did you mean mini?"});
     write_file(dir / "my-sweep.yaml", "");
     expect_refused(here("sweep my-sweeep.yaml -o out"), {"did you mean my-sweep.yaml?"});

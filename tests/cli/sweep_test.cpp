@@ -369,7 +369,7 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
     sweep_file("  a: {fills: [table9/full/NTU-1P]}\n");
     expect_refused({"line 9", "table9", "table1, table2"});
     sweep_file("  a: {fills: [table3/fool/NTU-1P]}\n");
-    expect_refused({"fool", "Gaussian prior"});
+    expect_refused({"no row 'fool'; did you mean full?", "Gaussian prior"});
     sweep_file("  a: {fills: [table3/full/NTU-2P]}\n");
     expect_refused({"NTU-2P", "there are NTU-1P"});
     sweep_file("  a: {fills: [full]}\n");
@@ -378,6 +378,10 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
     expect_refused({"table3/full/NTU-1P", "'a' and 'b'"});
     sweep_file("  a: {repeat: 3}\n");
     expect_refused({"line 9", "'repeat'", "repeats"});
+    sweep_file("  a: {sett: {batch: 3}}\n");
+    expect_refused({"line 9", "a row has no key 'sett'; did you mean set?; it takes data, recogniser, "});
+    sweep_file("  a: {like: bb}\n  b: {}\n");
+    expect_refused({"line 9", "no 'bb' to be like; did you mean b?"});
     sweep_file("  a: {repeats: many}\n");
     expect_refused({"line 9", "'repeats'", "whole number"});
     sweep_file("  a: {seeds: [0, 1, 0]}\n");
@@ -387,7 +391,7 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
     sweep_file("  a: {data: three}\n");
     expect_refused({"line 9", "no dataset 'three'"});
     write_file(dir / "sweep.yaml", "datasets:\n  one: {raw: [x], format: bhv}\nrows:\n  a: {}\n");
-    expect_refused({"line 2", "no format 'bhv'; there are", "bvh", "ntu"});
+    expect_refused({"line 2", "no format 'bhv'; did you mean bvh?; there are", "ntu"});
     sweep_file("  a: {recogniser: ears}\n");
     expect_refused({"no recogniser 'ears'"});
     sweep_file("  a: 3\n");

@@ -17,6 +17,7 @@ TEST(NearestFile, IsCalledMostLikeWhatIsMissing) {
     EXPECT_EQ(did_you_mean(dir / "ntu/ntu-p1/"), "; did you mean " + at + "ntu/ntu-1p?") << "letters swapped";
     EXPECT_EQ(did_you_mean(dir / "ntv/ntu-1p/dataset.json"),
               "; there is no " + at + "ntv, did you mean " + at + "ntu?");
+    EXPECT_EQ(did_you_mean(dir / "egnerated.h5"), "; did you mean " + at + "generated.h5?") << "at the front";
     EXPECT_EQ(did_you_mean(dir / "recogniser"), "") << "nothing is called like it";
     EXPECT_EQ(did_you_mean(dir / "mad"), "") << "two of three letters are others";
     EXPECT_EQ(did_you_mean(""), "");

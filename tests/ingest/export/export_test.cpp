@@ -240,6 +240,7 @@ TEST_F(Exported, WhatCannotBeExportedIsSaid) {
         for (const auto& word : words) EXPECT_NE(text.find(word), std::string::npos) << word << ": " << text;
         EXPECT_EQ(text.find('\n'), std::string::npos);
     };
+    says(request(file, dir / "x.bhv"), {"x.bhv: ends in none of", "did you mean .bvh?"});
     says(request(file, dir / "x.fbx"), {"x.fbx: ends in none of .h5, .npz, .bvh, .glb", "--format"});
     says(request(file, dir / "x"), {"none of .h5"});
     says(request(file, dir.path()), {"--format", "h5, npz, bvh, glb"});
