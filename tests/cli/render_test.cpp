@@ -21,13 +21,13 @@ struct Render : testing::Test {
 
 // Split s/two has classes 1 (c0) and 2 (c1), and not 3 (c2).
 TEST_F(Render, CountsClassesFromOneOrTakesTheirNames) {
-    for (const auto* said : {"1", "2", "A002", "c0", "C1"})
+    for (const auto* said : {"1", "2", "A002", "c0", "C1", "' C1 '"})
         EXPECT_EQ(render("--split s/two --class " + std::string(said)).exit, 0) << said;
     expect_refused(render("--split s/two --class 3"), {"no motion of class '3'"});
     expect_refused(render("--class 0"), {toy().string(), "no class 0", "from 1 to 3 ('c0' .. 'c2')"});
     expect_refused(render("--class 4"), {"no class 4", "from 1 to 3"});
     expect_refused(render("--class c"), {"no class 'c'"});
-    expect_refused(render("--class c0l"), {"no class 'c0l'; did you mean 'c0'?"});
+    expect_refused(render("--class \" c0l\""), {"no class 'c0l'; did you mean 'c0'?"});
 }
 
 TEST_F(Render, TakesClassesOfAMotionsFileFromTheDatasetBesideIt) {

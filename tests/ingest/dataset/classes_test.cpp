@@ -20,6 +20,9 @@ TEST(Classes, AreCalledByNameOrCountedFromOne) {
     EXPECT_EQ(label_called("walk", classes, "x"), 3U) << "as it is written comes first";
     EXPECT_EQ(label_called("WALK", classes, "x"), 2U);
     EXPECT_EQ(label_called("120", {}, "x"), 119U);
+    EXPECT_EQ(label_called(" Shaking hands ", classes, "x"), 1U) << "behind a comma and a blank";
+    EXPECT_EQ(label_called(" 1", classes, "x"), 0U);
+    EXPECT_EQ(label_called(" go", {"go", " go"}, "x"), 1U) << "as it is written comes first";
 }
 
 std::string refusal(const std::string& said, const std::vector<std::string>& all = classes) {
@@ -34,6 +37,8 @@ std::string refusal(const std::string& said, const std::vector<std::string>& all
 TEST(Classes, OthersAreRefusedWithWhatWasMeant) {
     EXPECT_EQ(refusal("shakin hands"),
               "ntu-2p: there is no class 'shakin hands'; did you mean 'shaking hands'?");
+    EXPECT_EQ(refusal(" Shakin hands"),
+              "ntu-2p: there is no class 'Shakin hands'; did you mean 'shaking hands'?");
     EXPECT_EQ(refusal("hands"), "ntu-2p: there is no class 'hands'; did you mean 'shaking hands'?");
     for (const auto* said : {"0", "6", "A006", "A000"})
         EXPECT_NE(refusal(said).find("numbered from 1 to 5 ('drink water' .. '2')"), std::string::npos)
