@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 
 #include "base/error.hpp"
@@ -114,6 +115,29 @@ void add_documentation(CLI::App& app) {
     });
 }
 
+/// What the program without a word says: commands that a newcomer can begin with, in any folder. Exit code 1, as nothing was done.
+int first_words() {
+    const auto here = [](const Subprogram& sub) { return std::filesystem::exists(path_of(sub)); };
+    std::string lines =
+        "actformer: from raw motion capture to a published table.\n\n"
+        "To begin with, on motion and weights that come with the program:\n\n"
+        "  # recordings become a dataset\n"
+        "  actformer ingest bvh examples/cmu/cmu.tar.xz -o cmu --name '{part}/{action}/{*}'\n";
+    if (here(subprograms[0]))
+        lines +=
+            "  # four of them, drawn\n"
+            "  actformer render cmu --class walking --count 4 -o walking.gif\n";
+    if (here(subprograms[2]))
+        lines +=
+            "  # others of the same actions, made by a trained generator\n"
+            "  actformer generate --generator weights/cmu/actformer.h5 -o generated.h5\n";
+    lines +=
+        "\nactformer --help tells all commands, in the order of a project's life; actformer COMMAND --help "
+        "one of them,\nwith examples.\n";
+    std::fputs(lines.c_str(), stderr);
+    return 1;
+}
+
 /// Headings of the help, in the order of a project's life.
 void group_commands(CLI::App& app) {
     const std::pair<const char*, std::vector<std::string>> groups[] = {
@@ -130,6 +154,7 @@ void group_commands(CLI::App& app) {
 
 int main(int argc, char** argv) {
     actformer::cli::expect_least_processor();
+    if (argc < 2) return first_words();
     if (asks_for_bench_train(argc, argv)) return become(bench_train, argv);
     if (asks_to_score_a_generator(argc, argv)) return become(score_generator, argv);
     for (const auto& sub : subprograms)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sstream>
 
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
@@ -33,6 +34,28 @@ TEST(Program, SuggestsTheOptionThatWasMeant) {
     EXPECT_EQ(
         result.output,
         "actformer: there is no option '--clps'; did you mean --clips? (see actformer synth ntu --help)\n");
+}
+
+TEST(Program, WithoutAWordSaysWhatToBeginWith) {
+    const TempDir dir;
+    const auto in = [&](const std::string& line) {
+        return run_command("cd " + dir.path().string() + " && " + line);
+    };
+    const auto said = in(program());
+    EXPECT_EQ(said.exit, 1) << "nothing was done";
+    EXPECT_EQ(in(program() + " 2>/dev/null").output, "");
+    EXPECT_NE(said.output.find("actformer --help"), std::string::npos) << said.output;
+    std::istringstream lines(said.output);
+    const std::string begins = "  actformer ";
+    int commands = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with(begins) || line.find(" -o ") == std::string::npos) continue;
+        const auto result = in(program() + line.substr(begins.size() - 1));
+        EXPECT_EQ(result.exit, 0) << line << ": " << result.output;
+        ++commands;
+    }
+    EXPECT_EQ(commands, 1 + std::filesystem::exists(program() + "-render") +
+                            std::filesystem::exists(program() + "-train"));
 }
 
 TEST(Program, MixesNoSyntheticClipsWithOthers) {
