@@ -23,18 +23,6 @@ constexpr std::size_t kept_back = std::size_t{1} << 16;  // bytes that wait for 
 // evicts that text.
 constexpr std::size_t much = std::size_t{1} << 20;
 
-std::string remedy(int error) {
-    switch (error) {
-        case ENOSPC:
-        case EDQUOT:
-            return "free some space, or choose another place";
-        case EFBIG:
-            return "raise the limit of a file's size (ulimit -f)";
-        default:
-            return "choose another place";
-    }
-}
-
 bool lock_now(int fd) {
     return ::flock(fd, LOCK_EX | LOCK_NB) == 0;
 }
@@ -77,6 +65,18 @@ bool is_synced(int fd) {
 }
 
 }  // namespace
+
+std::string remedy(int error) {
+    switch (error) {
+        case ENOSPC:
+        case EDQUOT:
+            return "free some space, or choose another place";
+        case EFBIG:
+            return "raise the limit of a file's size (ulimit -f)";
+        default:
+            return "choose another place";
+    }
+}
 
 Aside::Aside(fs::path path, Sync sync) : path_(std::move(path)), output_(output_at(path_)), sync_(sync) {
     if (output_.stream)
@@ -251,6 +251,11 @@ void Aside::fail() {
     throw Error("{}", failure_);
 }
 
+void sync_file(const fs::path& path) {
+    const Descriptor open(path, O_RDONLY | O_NOFOLLOW);
+    if (open.get() < 0 || !is_synced(open.get())) not_written(path);
+}
+
 void sync_names(const fs::path& folder) {
     const Descriptor open(folder, O_RDONLY | O_DIRECTORY);
     if (open.get() >= 0 && !is_synced(open.get()))
@@ -260,9 +265,7 @@ void sync_names(const fs::path& folder) {
 void sync_folder(const fs::path& folder) {
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         if (entry.is_directory()) sync_names(entry.path());
-        if (!entry.is_regular_file()) continue;
-        const Descriptor open(entry.path(), O_RDONLY | O_NOFOLLOW);
-        if (open.get() < 0 || !is_synced(open.get())) not_written(entry.path());
+        if (entry.is_regular_file()) sync_file(entry.path());
     }
     sync_names(folder);
 }

@@ -70,6 +70,12 @@ class Aside {
     bool settled_ = false, committed_ = false;
 };
 
+/// What a user may do where writing failed for this reason, an errno.
+std::string remedy(int error);
+
+/// Brings a file that was added to to the disk. Throws Error.
+void sync_file(const std::filesystem::path& path);
+
 /// Brings the files of a folder, and of those in it, to the disk one by one, and their names. Throws Error.
 void sync_folder(const std::filesystem::path& folder);
 

@@ -60,15 +60,14 @@ void write_whole(const fs::path& path, std::string_view bytes, Sync sync) {
 }
 
 void append(const fs::path& path, std::string_view bytes) {
-    Descriptor file(path, O_WRONLY | O_CREAT | O_APPEND);
+    auto file = open_regular(path, O_WRONLY | O_CREAT | O_APPEND);
+    const Descriptor same(file.get() < 0 ? -1 : ::fcntl(file.get(), F_DUPFD_CLOEXEC, 0));
     struct stat before {};
-    const bool there = file.get() >= 0 && ::fstat(file.get(), &before) == 0;
-    const bool written = there && write_fully(file.get(), bytes);
-    const auto why = reason();
-    if (there && !written) static_cast<void>(::ftruncate(file.get(), before.st_size) == 0);
-    if (!written || !file.close())
-        throw Error("{}: cannot be written: {}; free some space, or choose another place", path.string(),
-                    written ? reason() : why);
+    const bool there = same.get() >= 0 && ::fstat(same.get(), &before) == 0;
+    if (there && write_fully(file.get(), bytes) && file.close()) return;
+    const int error = errno;
+    if (there) static_cast<void>(::ftruncate(same.get(), before.st_size) == 0);
+    throw Error("{}: cannot be written: {}; {}", path.string(), std::strerror(error), remedy(error));
 }
 
 void make_folders(const fs::path& folder) {

@@ -29,7 +29,7 @@ constexpr std::size_t direct_block = 4096;
 void write_whole(const std::filesystem::path& path, std::string_view bytes, Sync sync = Sync::now);
 
 /// Puts `bytes` behind what is in the file, which is made where there is none. Throws Error, and takes back what was written of them,
-/// where not all of them could be.
+/// where not all of them could be, and where a symbolic link or no regular file is there.
 void append(const std::filesystem::path& path, std::string_view bytes);
 
 /// Makes the folder and those it lies in; where `folder` is a symbolic link, what that leads to. Throws Error.

@@ -1,8 +1,21 @@
 #include "base/files/regular_file.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <utility>
+
 #include "base/error.hpp"
 
 namespace actformer {
+namespace {
+
+[[noreturn]] void refuse_kind(const std::filesystem::path& path, const char* kind) {
+    throw Error("{}: {}, where a regular file is expected; move it away", path.string(), kind);
+}
+
+}  // namespace
 
 const char* irregular_kind(const std::filesystem::path& path) {
     std::error_code ignored;
@@ -24,6 +37,17 @@ const char* irregular_kind(const std::filesystem::path& path) {
 void refuse_irregular(const std::filesystem::path& path) {
     if (const std::string kind = irregular_kind(path); !kind.empty())
         throw Error("{}: {}, where a regular file is expected", path.string(), kind);
+}
+
+Descriptor open_regular(const std::filesystem::path& path, int flags) {
+    Descriptor file(path, flags | O_NOFOLLOW | O_NONBLOCK);
+    const int error = errno;
+    if (file.get() < 0 && error == ELOOP) refuse_kind(path, "a symbolic link");
+    struct stat status {};
+    const bool regular = file.get() >= 0 && ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode);
+    if (const char* kind = irregular_kind(path); !regular && *kind) refuse_kind(path, kind);
+    errno = error;
+    return file;
 }
 
 }  // namespace actformer

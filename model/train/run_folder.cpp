@@ -1,11 +1,13 @@
 #include "model/train/run_folder.hpp"
 
-#include <chrono>
-#include <fstream>
+#include <fcntl.h>
 
+#include <chrono>
+
+#include "base/checksum/checked_lines.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
-#include "base/text/json.hpp"
+#include "base/files/regular_file.hpp"
 #include "base/text/printable.hpp"
 #include "model/train/tensorboard.hpp"
 
@@ -15,6 +17,22 @@ namespace {
 /// Seconds since 1970.
 double now() {
     return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+/// Adds `text` to the file, and empties it.
+void add_all(const std::filesystem::path& path, std::string& text) {
+    if (text.empty()) return;
+    append(path, text);
+    text.clear();
+}
+
+/// Copies the file, and returns where to.
+std::filesystem::path kept_as_damaged(const std::filesystem::path& path) {
+    std::string bytes;
+    read_in_pieces(path, [&](std::string_view piece) { bytes += piece; });
+    const std::filesystem::path copy(path.string() + ".damaged");
+    write_whole(copy, bytes);
+    return copy;
 }
 
 }  // namespace
@@ -43,29 +61,40 @@ void RunFolder::keep_to(const Config& config) const {
     write_whole(this->config(), config.yaml());
 }
 
-void RunFolder::log(const nlohmann::ordered_json& line) const {
-    append(folder_ / "log.jsonl", line.dump() + "\n");
-    if (!tensorboard_) return;
-    if (const auto event = tensorboard_event(line, now()); !event.empty()) append(events(), event);
+void RunFolder::log(const nlohmann::ordered_json& line) {
+    unwritten_ += checked_line(line);
+    if (tensorboard_) unwritten_events_ += tensorboard_event(line, now());
+    write_log();
 }
 
-void RunFolder::rewind_log(std::uint64_t epochs) const {
-    const auto path = folder_ / "log.jsonl";
-    std::ifstream file(path, std::ios::binary);
-    std::string kept, line, curves = tensorboard_head(now());
-    while (std::getline(file, line) && !file.eof()) {
-        const auto json = json_or_discarded<nlohmann::ordered_json>(line);
-        if (json.is_object() && json.contains("epoch") && json["epoch"].is_number_unsigned() &&
-            json["epoch"] <= epochs) {
-            kept += line + "\n";
-            if (tensorboard_) curves += tensorboard_event(json, now());
-        }
+void RunFolder::write_log() {
+    add_all(log_file(), unwritten_);
+    add_all(events(), unwritten_events_);
+}
+
+void RunFolder::sync_log() {
+    write_log();
+    if (std::filesystem::exists(log_file())) sync_file(log_file());
+}
+
+std::string RunFolder::rewind_log(std::uint64_t epochs) const {
+    const auto path = log_file();
+    if (tensorboard_) open_regular(events(), O_RDONLY);  // refuses links and what is no file
+    const bool there = open_regular(path, O_RDONLY).get() >= 0;
+    const auto lines = read_checked_lines(path);
+    std::string kept, curves = tensorboard_head(now());
+    for (const auto& line : lines.objects) {
+        if (!line.contains("epoch") || !line["epoch"].is_number_unsigned() || line["epoch"] > epochs)
+            continue;
+        kept += line.dump() + "\n";
+        if (tensorboard_) curves += tensorboard_event(line, now());
     }
-    if (file.is_open()) {
-        file.close();
-        write_whole(path, kept);
-    }
+    auto note = lines.fault(path);
+    if (!note.empty()) note += ", and left out";
+    if (!lines.damaged.empty()) note += "; the log as it was is " + kept_as_damaged(path).string();
+    if (there) write_whole(path, kept);
     if (tensorboard_) write_whole(events(), curves);
+    return note;
 }
 
 }  // namespace actformer::model

@@ -25,18 +25,26 @@ class RunFolder {
     /// Error naming what differs.
     void keep_to(const Config& config) const;
 
-    /// Adds a line to log.jsonl, and its numbers to TensorBoard's file.
-    void log(const nlohmann::ordered_json& line) const;
+    /// Adds a line, and a checksum of it, to log.jsonl, and its numbers to TensorBoard's file. Throws Error where it cannot be written;
+    /// it is then kept, and written before the next one.
+    void log(const nlohmann::ordered_json& line);
+
+    /// Writes the lines that could not be written before, and brings log.jsonl to the disk. Throws Error.
+    void sync_log();
 
     /// Keeps of log.jsonl the lines of the first `epochs` epochs: those after them are trained, and logged, again. TensorBoard's file is
-    /// made of these lines anew.
-    void rewind_log(std::uint64_t epochs) const;
+    /// made of these lines anew. Returns a note of the lines that are damaged and therefore left out, empty where none is; the log as it was
+    /// is then log.jsonl.damaged. Throws Error where a link or no regular file is there.
+    std::string rewind_log(std::uint64_t epochs) const;
 
   private:
+    void write_log();
+    std::filesystem::path log_file() const { return folder_ / "log.jsonl"; }
     std::filesystem::path events() const { return folder_ / "events.out.tfevents.actformer"; }
 
     std::filesystem::path folder_;
     bool tensorboard_;
+    std::string unwritten_, unwritten_events_;  ///< lines of log.jsonl, and their events
     std::optional<FileLock> lock_;
 };
 

@@ -153,7 +153,7 @@ void Loop::resume() {
             say(fmt::format("going on after step {}, in epoch {} of {}", step_, epoch() + 1,
                             settings_.epochs));
     }
-    folder_->rewind_log(epoch());
+    if (const auto note = folder_->rewind_log(epoch()); !note.empty()) say(note);
 }
 
 /// What rank 0 found in the folder, to all.
@@ -285,6 +285,7 @@ void Loop::save() {
     task_.save_weights(file("weights-last.h5"), learner_.weights(), notes(step_));
     if (learner_.keeps_ema())
         task_.save_weights(file("weights-average.h5"), learner_.ema_weights(), notes(step_));
+    folder_->sync_log();  // who goes on from the checkpoint does not log what is before it again
     save_checkpoint(folder_->path(), {step_, state_now(), learner_.state()});
     kept_step_ = step_;
 }

@@ -33,7 +33,8 @@ struct TrainingTask {
 /// Trains in the folder `run`, going on behind its newest whole checkpoint: the weights come out as they would have without
 /// the interruption, bit for bit on as many threads. Writes config.yaml, log.jsonl, the last two checkpoints,
 /// weights-last.h5, weights-average.h5 where the learner keeps an EMA, and with a validator, which may be null, weights-best.h5.
-/// An epoch is as many windows as there are clips. What cannot be written is told, and training goes on.
+/// An epoch is as many windows as there are clips. What cannot be written is told, and training goes on; lines of the log are kept, and
+/// no checkpoint is behind them until they are written. Throws Error where the last of it cannot be written.
 ///
 /// Of several processes rank 0 alone writes, scores and tells.
 ///

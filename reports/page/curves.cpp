@@ -1,10 +1,10 @@
 #include "reports/page/curves.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 
-#include "base/text/json.hpp"
+#include "base/checksum/checked_lines.hpp"
+#include "base/files/lock.hpp"
 #include "eval/metrics/metric.hpp"
 
 namespace actformer::reports {
@@ -45,23 +45,24 @@ bool has_log(const std::filesystem::path& run) {
     return std::filesystem::is_regular_file(run / "log.jsonl", unread);
 }
 
-nlohmann::ordered_json read_curves(const std::filesystem::path& run) {
+Curves read_curves(const std::filesystem::path& run) {
     constexpr std::size_t most = 500;
     std::map<std::uint64_t, Json> epochs;
-    if (run.empty() || !has_log(run)) return Json::array();
-    std::ifstream log(run / "log.jsonl");
-    for (std::string line; std::getline(log, line);) {
-        const auto said = json_or_discarded<Json>(line);
-        if (!said.is_object() || !said.contains("epoch") || !said["epoch"].is_number_unsigned()) continue;
+    Curves out;
+    if (run.empty() || !has_log(run)) return out;
+    const auto file = run / "log.jsonl";
+    const auto lines = read_checked_lines(file);
+    if (!lines.damaged.empty() || !FileLock::is_held(run / "lock")) out.fault = lines.fault(file);
+    for (const auto& said : lines.objects) {
+        if (!said.contains("epoch") || !said["epoch"].is_number_unsigned()) continue;
         auto& epoch = epochs[said["epoch"]];
         for (const auto& [key, value] : said.items())
             if (value.is_number()) epoch[key] = value;
     }
-    Json out = Json::array();
     const auto stride = (epochs.size() + most - 1) / most;
     std::size_t place = 0;
     for (auto& [number, epoch] : epochs)
-        if (++place == epochs.size() || (place - 1) % stride == 0) out.push_back(std::move(epoch));
+        if (++place == epochs.size() || (place - 1) % stride == 0) out.epochs.push_back(std::move(epoch));
     return out;
 }
 

@@ -10,9 +10,15 @@ namespace actformer::reports {
 /// Whether a training has written a log there.
 bool has_log(const std::filesystem::path& run);
 
+struct Curves {
+    nlohmann::ordered_json epochs = nlohmann::ordered_json::array();
+    std::string fault;  ///< of lines that were left out, in a few words; empty where none was
+};
+
 /// The numbers that a training's log.jsonl says of its epochs: one object an epoch, lines of the same epoch joined; at most 500,
-/// evenly chosen, the last among them. Empty where there is no log, or `run` is empty; lines that cannot be read are passed over.
-nlohmann::ordered_json read_curves(const std::filesystem::path& run);
+/// evenly chosen, the last among them. Empty where there is no log, or `run` is empty. A line that is being written is no fault. Throws
+/// Error where the log cannot be read.
+Curves read_curves(const std::filesystem::path& run);
 
 /// The charts that epochs give, whatever was trained: {"points": epochs, "charts": [{"title", "unit", "from_zero", "series": [{"key",
 /// "name"}]}]}. Losses share a chart, so do a discriminator's scores, and so does what measures one metric (accuracy and

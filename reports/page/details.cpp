@@ -204,7 +204,8 @@ class Details {
         const auto classes = classes_of(scored);
         add_scores(out, scored, classes);
         const auto* trained = row.trained();
-        out["curves"] = trained ? curves(*trained) : Json{{"generator", nullptr}, {"recogniser", nullptr}};
+        out["curves"] = {{"generator", nullptr}, {"recogniser", nullptr}};
+        if (trained) add_curves(out["curves"], row, *trained);
         out["projection"] = out["points"] = out["motions"] = nullptr;
         if (!run) return out;
         attempt(row, "features", [&] { add_points(out, *run, classes); });
@@ -230,9 +231,18 @@ class Details {
         }
     }
 
-    static Json curves(const MeasuredRun& run) {
-        return {{"generator", curve_charts(read_curves(run.run), "generated motions")},
-                {"recogniser", curve_charts(read_curves(run.recogniser), "recogniser")}};
+    void add_curves(Json& out, const MeasuredRow& row, const MeasuredRun& run) {
+        const auto add = [&](const char* what, const std::filesystem::path& folder, const char* whole) {
+            attempt(row, "curves", [&] {
+                const auto curves = read_curves(folder);
+                out[what] = curve_charts(curves.epochs, whole);
+                if (!curves.fault.empty())
+                    measured_.notices.push_back(
+                        fmt::format("{}: {}; its curves are without that", row.name, curves.fault));
+            });
+        };
+        add("generator", run.run, "generated motions");
+        add("recogniser", run.recogniser, "recogniser");
     }
 
     static Json points_json(const Points& points, const Classes& classes) {

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::uint64_t last_epoch(const fs::path& folder) {
-    const auto epochs = read_curves(folder);
+    const auto epochs = read_curves(folder).epochs;
     return epochs.empty() ? 0 : epochs.back()["epoch"].get<std::uint64_t>();
 }
 

@@ -11,7 +11,9 @@
 #include <future>
 #include <thread>
 
+#include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/regular_file.hpp"
 #include "tests/support/error_of.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -236,8 +238,25 @@ TEST(Append, PutsBytesBehindTheFile) {
     append(dir / "log", "two\n");
     EXPECT_EQ(read_file(dir / "log"), "one\ntwo\n");
     EXPECT_TRUE(says(error_of([&] { append(dir / "none/log", "x"); }), "none/log: cannot be written: "));
-    EXPECT_TRUE(
-        says(error_of([] { append("/dev/full", "x"); }), "/dev/full: cannot be written: No space left"));
+}
+
+TEST(Append, OpensNeitherLinksNorWhatIsNoRegularFile) {
+    const TempDir dir;
+    fs::create_symlink("/dev/full", dir / "full");
+    fs::create_symlink("nowhere", dir / "dangling");
+    fs::create_directory(dir / "folder");
+    ASSERT_EQ(::mkfifo((dir / "fifo").c_str(), 0600), 0);
+    for (const auto& [name, kind] : {std::pair{"full", "a symbolic link"},
+                                     {"dangling", "a symbolic link"},
+                                     {"folder", "a folder"},
+                                     {"fifo", "a FIFO"}}) {
+        const auto why = fmt::format("{}: {}, where a regular file is expected; move it away", name, kind);
+        EXPECT_TRUE(says(error_of([&] { append(dir / name, "x"); }), why));
+        EXPECT_TRUE(says(error_of([&] { open_regular(dir / name, O_RDONLY); }), why));
+    }
+    EXPECT_FALSE(fs::exists(dir / "nowhere"));
+    EXPECT_TRUE(says(error_of([] { append("/dev/full", "x"); }), "/dev/full: a device, where"));
+    EXPECT_LT(open_regular(dir / "none", O_RDONLY).get(), 0);
 }
 
 TEST(MakeFolders, FollowsALinkThatLeadsToNothingYet) {

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
 #include <thread>
 
 #include "base/hdf5/reader.hpp"
@@ -373,8 +374,60 @@ TEST_F(TrainGenerator, GoesOnWhereADiskIsFull) {
     });
 }
 
+TEST_F(TrainGenerator, LosesNoLineOfItsLogWhereADiskIsFull) {
+    const std::string more = "score_every=2 score_per_class=2 " + recogniser();
+    const auto failing = [&](const std::string& run, const std::string& calls) {
+        return run_command("LD_PRELOAD=" + failing_calls() + " FAIL_BELOW=" + at(run + "/log.jsonl") + " " +
+                           calls + " " + program() + " " + line(run, more));
+    };
+    const auto epochs_in = [&](const std::string& run) {
+        std::vector<int> epochs;
+        for (const auto& one : log_of(dir / run)) epochs.push_back(one.at("epoch"));
+        return epochs;
+    };
+    ASSERT_EQ(train("whole", more).exit, 0);
+    const auto epochs = epochs_in("whole");
+    EXPECT_EQ(std::set(epochs.begin(), epochs.end()), (std::set{1, 2, 3, 4}));
+    for (const auto* call : {"FAIL_AT=1", "FAIL_AT=2", "FAIL_AT=3"}) {  // to open, to write, to close
+        const auto once = failing("once", call);
+        EXPECT_EQ(once.exit, 0) << once.output;
+        EXPECT_NE(once.output.find("log.jsonl: cannot be written: "), std::string::npos) << once.output;
+        EXPECT_EQ(epochs_in("once"), epochs) << call;
+        fs::remove_all(dir / "once");
+    }
+    expect_refused(failing("full", "FAIL_AT=4 FAIL_ON=1"), {"full/log.jsonl: cannot be written: "});
+    const auto again = train("full", more);
+    ASSERT_EQ(again.exit, 0) << again.output;
+    EXPECT_EQ(epochs_in("full"), epochs);
+    EXPECT_EQ(read_file(dir / "full/weights-last.h5"), read_file(dir / "whole/weights-last.h5"));
+}
+
+TEST_F(TrainGenerator, OpensNoLogThatIsALinkAndTellsOfADamagedOne) {
+    ASSERT_EQ(train("run", "epochs=3").exit, 0);
+    auto text = read_file(dir / "run/log.jsonl");
+    const auto at_digit = text.find("\"step\":4") + 7;
+    text[at_digit] = '5';
+    write_file(dir / "run/log.jsonl", text);
+    const auto told = train("run", "epochs=4");
+    EXPECT_EQ(told.exit, 0) << told.output;
+    EXPECT_NE(told.output.find("run/log.jsonl: line 2: damaged, and left out"), std::string::npos)
+        << told.output;
+    EXPECT_EQ(log_of(dir / "run").size(), 3U);
+    fs::remove(dir / "run/log.jsonl");
+    for (const auto* target : {"/dev/full", "/dev/zero"}) {
+        fs::create_symlink(target, dir / "run/log.jsonl");
+        expect_refused(run_command("timeout 60 " + program() + " " + line("run", "epochs=5")),
+                       {"run/log.jsonl: a symbolic link", "regular file"});
+        fs::remove(dir / "run/log.jsonl");
+    }
+}
+
 TEST_F(TrainGenerator, RefusesWhatCannotBeTrained) {
     expect_refused(train("r", "heads=3"), {"heads: 3", "width: 16"});
+    for (const auto* kind : {"generator", "recogniser"})
+        expect_refused(run_actformer("train " + std::string(kind) + " -c " + dir.path().string() +
+                                     " --data " + toy().string() + " -o " + at("r")),
+                       {dir.path().string() + ": not a file", ".yaml"});
     expect_refused(train("r", "frames=8"), {"frames", "16"});
     expect_refused(train("r", "train_split=s/none"), {"split s/none holds no clip"});
     expect_refused(train("r", "persons=2"), {"1 person", "persons: 2"});

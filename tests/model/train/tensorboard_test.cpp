@@ -126,13 +126,13 @@ TEST(Tensorboard, TheFileFollowsTheLogAlsoWhereItGoesBack) {
     const TempDir dir;
     const auto file = dir / "run/events.out.tfevents.actformer";
     {
-        const RunFolder run(dir / "run", true);
+        RunFolder run(dir / "run", true);
         run.rewind_log(0);
         for (int epoch = 1; epoch <= 3; ++epoch)
             run.log({{"epoch", epoch}, {"step", 10 * epoch}, {"loss", epoch}});
     }
     EXPECT_EQ(events_in(read_file(file)).size(), 4U);
-    const RunFolder again(dir / "run", true);
+    RunFolder again(dir / "run", true);
     again.rewind_log(1);
     again.log({{"epoch", 2}, {"step", 20}, {"loss", 7}});
     const auto events = events_in(read_file(file));

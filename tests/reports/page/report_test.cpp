@@ -5,6 +5,8 @@
 #include <random>
 
 #include "base/checksum/checked_json.hpp"
+#include "base/checksum/checked_lines.hpp"
+#include "base/files/lock.hpp"
 #include "reports/page/curves.hpp"
 #include "reports/page/exports.hpp"
 #include "reports/page/html.hpp"
@@ -524,18 +526,26 @@ TEST(Projections, FarPointsAndSamplesThatAreAllTheSameStayFinite) {
     EXPECT_NE(error_of([&] { Projection(real).of(other); }).find("3 dimensions"), std::string::npos);
 }
 
-TEST(Curves, JoinLinesOfAnEpochAndPassOverBrokenOnes) {
+TEST(Curves, JoinLinesOfAnEpochAndTellOfBrokenOnes) {
     const Folder dir;
-    write(dir / "run" / "log.jsonl",
-          "{\"epoch\": 1, \"loss\": 2.5, \"rate\": 0.1}\n"
-          "not json\n"
-          "{\"epoch\": 2, \"loss\": 1.5}\n"
-          "{\"epoch\": 2, \"accuracy\": 0.25}\n"
-          "{\"epoch\": 3, \"lo");
+    const std::string whole = "{\"epoch\": 2, \"loss\": 1.5}\n" +
+                              checked_line({{"epoch", 2}, {"accuracy", 0.25}}),
+                      first = "{\"epoch\": 1, \"loss\": 2.5, \"rate\": 0.1}\n";
+    auto changed = checked_line({{"epoch", 4}, {"loss", 7.5}});
+    changed[changed.find("7.5")] = '8';
+    write(dir / "run" / "log.jsonl", first + "not json\n" + whole + changed + "{\"epoch\": 3, \"lo");
+    const auto expected = Json::parse(R"([{"epoch": 1, "loss": 2.5, "rate": 0.1},
+                                          {"epoch": 2, "loss": 1.5, "accuracy": 0.25}])");
     const auto curves = read_curves(dir / "run");
-    EXPECT_EQ(curves, Json::parse(R"([{"epoch": 1, "loss": 2.5, "rate": 0.1},
-                                      {"epoch": 2, "loss": 1.5, "accuracy": 0.25}])"));
-    EXPECT_EQ(read_curves(dir / "none"), Json::array());
+    EXPECT_EQ(curves.epochs, expected);
+    EXPECT_TRUE(curves.fault.ends_with("run/log.jsonl: lines 2, 5: damaged")) << curves.fault;
+
+    write(dir / "run" / "log.jsonl", first + whole + "{\"epoch\": 3, \"lo");
+    EXPECT_EQ(read_curves(dir / "run").epochs, expected);
+    EXPECT_TRUE(read_curves(dir / "run").fault.ends_with("run/log.jsonl: its last line is cut short"));
+    const auto held = FileLock::if_free(dir / "run" / "lock");
+    EXPECT_EQ(read_curves(dir / "run").fault, "") << "the training is writing it";
+    EXPECT_EQ(read_curves(dir / "none").epochs, Json::array());
 }
 
 TEST(Curves, AreChartsOfWhateverWasTrained) {
@@ -560,7 +570,7 @@ TEST(Curves, LongOnesAreThinnedAndKeepTheirEnd) {
     std::string log;
     for (int i = 1; i <= 2001; ++i) log += "{\"epoch\": " + std::to_string(i) + ", \"loss\": 1}\n";
     write(dir / "run" / "log.jsonl", log);
-    const auto curves = read_curves(dir / "run");
+    const auto curves = read_curves(dir / "run").epochs;
     EXPECT_LE(curves.size(), 501U);
     EXPECT_EQ(curves.front()["epoch"], 1);
     EXPECT_EQ(curves.back()["epoch"], 2001);
