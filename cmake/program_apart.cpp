@@ -2,10 +2,12 @@
 // builds of that library for newer processors, x86-64-v3/PROGRAM.so say: the best that this processor can run is opened, or the one that
 // ACTFORMER_ISA names.
 #include <dlfcn.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -64,17 +66,40 @@ void start_again_with_vectors(const char* program, char** argv) {
         }
 }
 
+/// Ends the program where a library that is being opened runs out of memory: nobody can catch what it throws.
+[[noreturn]] void fail_for_want_of_memory() {
+    std::fputs("actformer: not enough memory to load the program's libraries; raise the limit (ulimit -v)\n",
+               stderr);
+    std::_Exit(1);
+}
+
+bool memory_is_limited() {
+    rlimit limit{};
+    return ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+/// For on_exit(3): without the libraries' own ends. OpenBLAS's waits for its threads, and these wait for memory that they cannot get.
+void end_now(int code, void*) {
+    std::fflush(nullptr);
+    std::_Exit(code);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     actformer::expect_processor(least_march);
     std::error_code unread;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unread);
+    const auto usual = std::set_terminate(fail_for_want_of_memory);
     if (!std::getenv("OPENBLAS_CORETYPE")) start_again_with_vectors(program.c_str(), argv);
     void* const library = ::dlopen(library_of(program).c_str(), RTLD_NOW | RTLD_LOCAL);
+    std::set_terminate(usual);
+    if (memory_is_limited()) ::on_exit(end_now, nullptr);
     using Main = int(int, char**);
     auto* const main_of_it = library ? reinterpret_cast<Main*>(::dlsym(library, "main")) : nullptr;
     if (main_of_it) return main_of_it(argc, argv);
-    std::fprintf(stderr, "actformer: %s; build or install it again\n", ::dlerror());
+    std::fprintf(stderr, "actformer: %s; %s\n", ::dlerror(),
+                 memory_is_limited() ? "raise the limit on memory (ulimit -v), or build or install it again"
+                                     : "build or install it again");
     return 1;
 }

@@ -5,6 +5,7 @@
 #include <ATen/core/grad_mode.h>
 #include <dlfcn.h>
 #include <sched.h>
+#include <sys/mman.h>
 #include <torch/version.h>
 
 #include <algorithm>
@@ -70,6 +71,26 @@ int threads_asked_for() {
     return std::clamp(threads, 0, 1024);
 }
 
+/// What OpenBLAS maps for a thread that multiplies (its BUFFER_SIZE on x86-64), and keeps.
+constexpr std::size_t openblas_buffer = std::size_t{128} << 20;  // bytes
+
+/// Lets OpenBLAS take its buffer for this thread now. It asks for it at the first product, and again without end where it gets none.
+/// Its own threads have taken theirs by now, or are at it: then there is not enough for this one either. Throws Error.
+void take_openblas_buffer() {
+    if (library_of_sgemm().find("openblas") == std::string::npos) return;
+    void* const room =
+        ::mmap(nullptr, openblas_buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (room == MAP_FAILED)
+        throw Error(
+            "not enough memory for matrix products: OpenBLAS maps {} MiB a thread; raise the limit (ulimit "
+            "-v), or let it have fewer threads (OMP_NUM_THREADS=1)",
+            openblas_buffer >> 20);
+    ::munmap(room, openblas_buffer);
+    constexpr std::int64_t n = 128;  // it multiplies smaller ones without
+    const at::NoGradGuard no_gradients;
+    at::ones({n, n}).mm(at::ones({n, n}));
+}
+
 }  // namespace
 
 BlasCheck check_blas() {
@@ -99,6 +120,7 @@ int set_threads(int threads) {
         cpu_set_t allowed;
         threads = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
     }
+    take_openblas_buffer();
     expect_threads(static_cast<unsigned>(threads));  // OpenMP ends the process where it is refused one
     at::set_num_threads(threads);
     return threads;

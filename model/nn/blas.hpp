@@ -18,7 +18,7 @@ struct BlasCheck {
 BlasCheck check_blas();
 
 /// Sets the threads of libtorch, which starts with one unless told; 0 means OMP_NUM_THREADS, or where that is not set as many as this
-/// process may use. Returns how many were set.
+/// process may use. Returns how many were set. Throws Error where memory or threads for them cannot be had.
 int set_threads(int threads);
 
 }  // namespace actformer::model

@@ -1,5 +1,8 @@
 // Too much of something: threads, descriptors, nesting, and names that would command a terminal.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <filesystem>
 
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
@@ -29,6 +32,36 @@ TEST_F(Limits, DescriptorsThatCannotBeHadAreALine) {
     expect_refused(
         run_command("exec 3>&-; ulimit -n 4; " + program() + " ingest ntu " + raw + " -o " + at("out")),
         {"no OpenCL device", "ulimit -n"});
+}
+
+// OpenBLAS asks for a buffer again without end where it gets none, and waits for its threads that do at the program's end; libtorch's
+// libraries throw while they are loaded. OpenBLAS is loaded last where it is told what the processor is.
+TEST_F(Limits, GeneratingInLittleMemoryIsRightOrALine) {
+    if (!std::filesystem::exists(program() + "-train")) GTEST_SKIP() << "there is no libtorch";
+    const auto generate = [&](const std::string& limit, const std::string& out) {
+        return run_command(limit + "OMP_NUM_THREADS=2 timeout -s KILL 100 " + program() +
+                           " generate --generator " + source("weights/cmu/actformer.h5") +
+                           " --per-class 1 --classes 1 --seed 3 -o " + at(out));
+    };
+    const auto whole = generate("", "whole.h5");
+    ASSERT_EQ(whole.exit, 0) << whole.output;
+    const auto check = [&](int mebibytes, const std::string& setting) {
+        const auto limit = fmt::format("ulimit -v {}; {} ", mebibytes * 1024, setting);
+        const auto limited = generate(limit, "limited.h5");
+        SCOPED_TRACE(limit + limited.output);
+        EXPECT_EQ(lines_in(limited.output), 1);
+        const bool made = std::filesystem::exists(dir / "limited.h5");
+        EXPECT_EQ(made, limited.exit == 0);
+        if (!made) {
+            EXPECT_EQ(limited.exit, 1);
+            EXPECT_TRUE(limited.output.starts_with("actformer: "));
+        } else if (setting.empty()) {
+            EXPECT_TRUE(read_file(dir / "limited.h5") == read_file(dir / "whole.h5"));
+        }
+        std::filesystem::remove(dir / "limited.h5");
+    };
+    for (const int mebibytes : {100, 600, 690, 720, 800, 880, 920, 1200}) check(mebibytes, "");
+    for (const int mebibytes : {600, 660}) check(mebibytes, "OPENBLAS_CORETYPE=Nehalem");
 }
 
 TEST_F(Limits, NestingIsBounded) {
