@@ -73,6 +73,11 @@ std::string latex_text(const std::string& text) {
     return out;
 }
 
+/// A row's first cell: behind "\\" a bracket or an asterisk would be its argument.
+std::string latex_row_name(const std::string& name) {
+    return (name.starts_with('[') || name.starts_with('*') ? "{}" : "") + latex_text(name);
+}
+
 /// "FIDa_m" -> "FIDa$_m$"
 std::string latex_heading(const ColumnMetric& metric) {
     const auto& text = metric.heading;
@@ -134,7 +139,7 @@ std::string latex_table(const FilledTable& table) {
         "\\\\\n\\midrule\n",
         kinds, groups, rules, metrics);
     for (std::size_t r = 0; r < table.rows.size(); ++r) {
-        out += latex_text(table.paper->rows[r].name);
+        out += latex_row_name(table.paper->rows[r].name);
         for (const auto& group : table.rows[r])
             for (const auto& figures : group.figures) out += " & " + latex_cell(group, figures);
         out += " \\\\\n";

@@ -424,6 +424,25 @@ TEST_F(Report, CsvHasALineForEveryFigureOfThePaper) {
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 4 * 12 + 4 * 9 + 4 * 3 + 6 * 5 + 3 * 9);
 }
 
+TEST_F(Report, LatexTakesNoNameForACommand) {
+    auto table = read_table(
+        "title: Table 9\ncaption: c\nsource: s\norder: 9\n"
+        "columns: [{dataset: A, metrics: [diversity]}]\nrows:\n  one: {A: [1]}\n  two: {A: [2]}\n",
+        "table9.yaml");
+    const std::string hostile = "a\\input{b}$x$ & #1_2 %c ~ ^ \"d\"\n\\\\ e";
+    table.columns[0].dataset = table.rows[0].name = table.caption = hostile;
+    table.rows[1].name = "[1ex] *";
+    auto measured = read();
+    measured.tables = {table};
+    const auto latex = to_latex(fill_tables(measured));
+    const std::string escaped =
+        R"(a\textbackslash{}input\{b\}\$x\$ \& \#1\_2 \%c \~{} \^{} "d"\textbackslash{}x0A\textbackslash{}\textbackslash{} e)";
+    for (const auto& line :
+         {" & \\multicolumn{1}{c}{" + escaped + "} \\\\\n", "\n" + escaped + " & -- \\\\\n",
+          std::string("\n{}[1ex] * & -- \\\\\n"), "\n\\caption{" + escaped + "}\n"})
+        EXPECT_NE(latex.find(line), std::string::npos) << line << latex;
+}
+
 TEST_F(Report, LatexHasAsManyColumnsInEveryLine) {
     add("full", "table3/full/NTU-1P", {scores({0.599, 0.601}, {4.9, 5.1})});
     add("fixed", "table3/fixed PE/NTU-1P", {scores({0.4, 0.401}, {9, 9.1})});
