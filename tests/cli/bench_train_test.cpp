@@ -100,6 +100,25 @@ TEST(BenchTrain, ComparesWithWhatThePeerPrintsLast) {
     EXPECT_NE(alone.output.find("--peer requires --peers"), std::string::npos) << alone.output;
 }
 
+// No shell is between: whatever a path holds arrives whole.
+TEST(BenchTrain, HandsPathsToThePeerAsTheyAre) {
+    if (!has_training()) GTEST_SKIP() << "this build has no libtorch";
+    const TempDir dir;
+    const auto folder = dir / "it's $HOME; `x`";
+    write_file(folder / "actformer_speed.py", "");
+    write_file(folder / "peer's.sh", "test -f \"$1/actformer_speed.py\" && echo 1 2 3 4\n");
+    const auto quoted = [&](const std::string& name) {
+        return "\"" + dir.path().string() + "/it's \\$HOME; \\`x\\`" + name + "\"";
+    };
+    const auto result = run_actformer(
+        "bench train --persons 1 --classes 3 --frames 16 --batch 2 --threads 1 --rounds 1 --json --method "
+        "csgn "
+        "width=8 d_width=2 --python /bin/sh --peers " +
+        quoted("") + " --peer " + quoted("/peer's.sh") + " 2>/dev/null");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_EQ(nlohmann::json::parse(result.output)["step, processors"]["pytorch"], 2);
+}
+
 TEST(BenchTrain, RefusesAFolderWithoutThePeer) {
     if (!has_training()) GTEST_SKIP() << "this build has no libtorch";
     expect_refused(run_actformer("bench train --frames 16 --batch 1 --rounds 1 --peers /nowhere"),
