@@ -16,6 +16,7 @@
 #include "base/files/output.hpp"
 #include "base/files/scratch.hpp"
 #include "base/files/temporary.hpp"
+#include "base/files/work_folder.hpp"
 #include "base/process/interruption.hpp"
 #include "base/random/shuffle.hpp"
 #include "cli/common_options.hpp"
@@ -69,6 +70,7 @@ class WorkFolder {
             return;
         }
         path_ = output.file.string() + ".work";
+        expect_own_folder(path_, eval::is_kept_by_score);
         kept_.emplace(
             [this, &out] {
                 lock_ = FileLock::on_folder_if_free(path_);
@@ -88,10 +90,7 @@ class WorkFolder {
     WorkFolder& operator=(const WorkFolder&) = delete;
 
     const fs::path& path() const { return path_; }
-    void done() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
+    void done() { remove_own_folder(path_, eval::is_kept_by_score); }
 
   private:
     std::optional<Scratch> temporary_;

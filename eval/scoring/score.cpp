@@ -5,6 +5,7 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/work_folder.hpp"
 #include "eval/scoring/measured_motions.hpp"
 #include "eval/scoring/real_features.hpp"
 #include "ingest/dataset/dataset_json.hpp"
@@ -15,6 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Persons = FeatureExtractor::Persons;
+
+// In the work folder: of the real side, where the user's cache cannot be written.
+constexpr const char* real_file = "real.h5";
+constexpr const char* real_groups_file = "real-groups.h5";
 
 Observed observed(StoredFeatures stored, std::string source) {
     Observed out;
@@ -82,7 +87,7 @@ class Sides {
     const std::optional<FeatureExtractor>& single() const { return single_; }
 
     Observed real() {
-        auto cached = real_features(first(), "real.h5");
+        auto cached = real_features(first(), real_file);
         add_note(cached.note);
         if (!request_.keep.empty()) {
             make_folders(request_.keep);
@@ -90,7 +95,7 @@ class Sides {
         }
         auto out = observed(std::move(cached.features), request_.real.dataset.string());
         if (whole_ && single_) {
-            auto groups = real_features(*single_, "real-groups.h5");
+            auto groups = real_features(*single_, real_groups_file);
             add_note(groups.note);
             add_groups(out, std::move(groups.features));
         }
@@ -308,6 +313,14 @@ Scored score_motions(const ScoreMotions& request, kernels::Device& device, const
     out.json["provenance"] = provenance_of_motions(request, sides, device.info().name);
     out.notes = sides.notes();
     return out;
+}
+
+bool is_kept_by_score(const fs::path& below) {
+    if (below.has_parent_path()) return false;
+    if (is_called(below, real_file) || is_called(below, real_groups_file)) return true;
+    const auto key = below.native().substr(0, below.native().find('.'));
+    return key.size() == 32 && key.find_first_not_of("0123456789abcdef") == std::string::npos &&
+           (is_called(below, key + ".h5") || is_called(below, key + ".measures"));
 }
 
 Scored score_features(const ScoreFeatures& request) {

@@ -52,6 +52,9 @@ using ScoreProgress = std::function<void(const std::string& what, std::uint64_t 
 Scored score_motions(const ScoreMotions& request, kernels::Device& device,
                      const ScoreProgress& progress = {});
 
+/// Whether scoring puts a file of this path into the folder ScoreMotions::work.
+bool is_kept_by_score(const std::filesystem::path& below);
+
 /// Throws Error as read_features does, and for sides of other classes or dimensions.
 Scored score_features(const ScoreFeatures& request);
 

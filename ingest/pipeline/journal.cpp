@@ -56,11 +56,16 @@ std::string text_of(const Json& json) {
 }  // namespace
 
 Workplace::Workplace(fs::path folder, const std::string& request) : folder_(std::move(folder)) {
+    const auto expect_free = [this](bool is_free) {
+        if (!is_free)
+            throw Error("{}: another ingest is writing there; wait for it, or choose another -o",
+                        folder_.string());
+    };
+    expect_free(!FileLock::is_held(folder_ / "lock"));
+    expect_own_workplace(folder_);
     make_folders(folder_);
     lock_ = FileLock::if_free(folder_ / "lock");
-    if (!lock_)
-        throw Error("{}: another ingest is writing there; wait for it, or choose another -o",
-                    folder_.string());
+    expect_free(lock_.has_value());
     take_back(data(), folder_);
     load(request);
 }
@@ -167,8 +172,7 @@ void Workplace::deliver(const fs::path& out) {
 }
 
 void Workplace::discard() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
+    remove_workplace(folder_);
     finished_.clear();
 }
 

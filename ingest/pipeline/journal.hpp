@@ -55,7 +55,8 @@ struct Tranche {
 class Workplace {
   public:
     /// Opens or makes `folder`. Work that an earlier run left for another `request` (settings and raw files) is thrown away, and
-    /// what is no longer as it was written. Throws Error where another process holds it.
+    /// what is no longer as it was written. Throws Error where another process holds it, and where something lies there that no
+    /// ingest left.
     Workplace(std::filesystem::path folder, const std::string& request);
 
     const std::vector<Tranche>& finished() const { return finished_; }
@@ -73,7 +74,7 @@ class Workplace {
     /// Moves data() to `out`, whole and on the disk, and removes what is left.
     void deliver(const std::filesystem::path& out);
 
-    /// Removes everything.
+    /// Removes everything, unless somebody has put something of theirs there.
     void discard();
 
   private:

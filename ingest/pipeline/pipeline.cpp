@@ -74,9 +74,8 @@ class Ingest {
         const auto aside = workplace_of(request_.out);
         if (is_taken(request_.out)) {
             take_over_finished(wanted);
-            std::error_code ignored;
             for (const auto& left : {aside, fs::path(request_.out.string() + ".partial")})
-                fs::remove_all(left, ignored);
+                remove_workplace(left);
             return summary_;
         }
         const SafePoints safe_points;

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/work_folder.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -34,7 +35,26 @@ void move_up_or_back(const std::vector<fs::path>& names, const fs::path& from, c
     }
 }
 
+/// Whether an ingest writes such a file, below its workplace: lists of what is done, and datasets in `data`.
+bool is_own_file(const fs::path& below) {
+    const auto called_as = [](const fs::path& name, std::initializer_list<const char*> own) {
+        return std::ranges::any_of(own, [&](const char* file) { return is_called(name, file); });
+    };
+    const auto name = below.filename();
+    if (!below.has_parent_path()) return called_as(name, {"lock", "journal", "announced", delivering});
+    return *below.begin() == "data" &&
+           (name.native().starts_with("shard-") || called_as(name, {"dataset.json", "rejected.csv", record}));
+}
+
 }  // namespace
+
+void expect_own_workplace(const fs::path& workplace) {
+    expect_own_folder(workplace, is_own_file);
+}
+
+void remove_workplace(const fs::path& workplace) {
+    remove_own_folder(workplace, is_own_file);
+}
 
 fs::path workplace_of(const fs::path& out) {
     std::error_code ignored;

@@ -13,6 +13,12 @@ std::filesystem::path workplace_of(const std::filesystem::path& out);
 /// a fresh file system too.
 bool is_taken(const std::filesystem::path& out);
 
+/// Throws Error, with the remedy, where something lies at `workplace` that no ingest left there: it is not to be worked in.
+void expect_own_workplace(const std::filesystem::path& workplace);
+
+/// Removes the workplace, unless something lies there that no ingest left.
+void remove_workplace(const std::filesystem::path& workplace);
+
 /// Moves the finished folder `data` of the workplace to `out`, once it is on the disk. Throws Error; where it fails in the middle,
 /// take_back() undoes it.
 void put_in_place(const std::filesystem::path& data, const std::filesystem::path& workplace,

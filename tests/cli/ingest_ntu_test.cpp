@@ -296,6 +296,20 @@ TEST_F(IngestNtu, StartsAfreshWhenTheRawDataChangedInBetween) {
     EXPECT_EQ(Dataset(fs::path(out()) / "ntu-1p").clips().size(), 1U);
 }
 
+TEST_F(IngestNtu, LeavesWhatOthersPutAtItsWorkingFolder) {
+    clip("S001C001P001R001A001", plain_clip());
+    const auto command = "ingest ntu " + raw() + " -o " + out();
+    write_file(dir / "thesis/data/chapter", "precious");
+    fs::create_directory_symlink("thesis", dir / "out.partial");
+    actformer::test::expect_refused(run_actformer(command),
+                                    {"out.partial: a symbolic link", "remove it, or choose another -o"});
+    fs::remove(dir / "out.partial");
+    fs::rename(dir / "thesis", dir / "out.partial");
+    actformer::test::expect_refused(run_actformer(command),
+                                    {"out.partial/data/chapter: ", "move it, or choose another -o"});
+    EXPECT_EQ(read_file(dir / "out.partial/data/chapter"), "precious");
+}
+
 TEST_F(IngestNtu, RefusesToShareItsOutputWithAnotherRun) {
     clip("S001C001P001R001A001", plain_clip());
     fs::create_directories(out() + ".partial");

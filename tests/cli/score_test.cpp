@@ -458,6 +458,23 @@ TEST_F(Score, TakesNoMeasuresOfOtherWindows) {
     EXPECT_TRUE(json.contains("limb_acceleration"));
 }
 
+TEST_F(Score, LeavesWhatOthersPutAtItsWorkingFolder) {
+    features("f.h5", labels_of({8, 8, 8}));
+    const auto arguments = "--real-features " + at("f.h5") + " --generated-features " + at("f.h5");
+    write_file(dir / "thesis/chapter", "precious");
+    fs::create_directory_symlink("thesis", dir / "refused.json.work");
+    expect_refused(arguments, {"refused.json.work: a symbolic link", "remove it, or choose another -o"});
+    fs::remove(dir / "refused.json.work");
+    fs::rename(dir / "thesis", dir / "refused.json.work");
+    expect_refused(arguments, {"refused.json.work/chapter: ", "move it, or choose another -o"});
+    EXPECT_EQ(read_file(dir / "refused.json.work/chapter"), "precious");
+    const std::string key(32, '0');
+    for (const auto& own : {key + ".h5", key + ".measures", key + ".h5.partial", std::string("real.h5")})
+        write_file(dir / "own.json.work" / own, "left");
+    EXPECT_EQ(score(arguments + " -o " + at("own.json")).exit, 0);
+    EXPECT_FALSE(fs::exists(dir / "own.json.work"));
+}
+
 TEST_F(Score, TellsHowFastRootsMove) {
     const ingest::Dataset dataset(datasets() / "ntu-1p");
     for (const int speed : {1, 2}) {  // metres a second

@@ -289,6 +289,53 @@ TEST_F(PipelineOnDevice, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
     EXPECT_EQ(contents(dir / "out"), contents(dir / "whole"));
 }
 
+TEST_F(PipelineOnDevice, WhatNoIngestMadeIsNotWorkedInNorRemoved) {
+    write_file(dir / "raw/a.lines", "x 1 2\n");
+    write_file(dir / "thesis/data/chapter", "precious");
+    write_file(dir / "thesis/journal", "dear diary");
+    const auto before = contents(dir / "thesis");
+    fs::create_directory_symlink("thesis", dir / "link.partial");
+    fs::copy(dir / "thesis", dir / "other.partial", fs::copy_options::recursive);
+    fs::create_directory(dir / "there");
+    fs::copy(dir / "thesis", dir / "there/.partial", fs::copy_options::recursive);
+    LineFormat format;
+    for (const auto& [out, named] : {std::pair{"link", "link.partial: a symbolic link"},
+                                     {"other", "other.partial/data/chapter: "},
+                                     {"there", "there/.partial/data/chapter: "}}) {
+        const auto why = error_of([&] { run(format, out); });
+        EXPECT_NE(why.find(named), std::string::npos) << why;
+        EXPECT_FALSE(fs::exists(dir / out / "dataset.json"));
+    }
+    EXPECT_EQ(contents(dir / "there/.partial"), before);
+    for (const auto* out : {"link", "other"}) {
+        const auto partial = std::string(out) + ".partial";
+        fs::rename(dir / partial, dir / "kept");
+        run(format, out);
+        fs::rename(dir / "kept", dir / partial);
+        EXPECT_TRUE(run(format, out).was_complete) << "what it worked in goes, and nothing else";
+        EXPECT_EQ(contents(dir / partial), before);
+    }
+    EXPECT_EQ(contents(dir / "thesis"), before);
+}
+
+TEST_F(PipelineOnDevice, WhatSomebodyPutsWhereItWorksStays) {
+    write_file(dir / "raw/a.lines", "x 1 2\n");
+    HinderedFormat putting(dir / "out.partial/thesis");
+    run(putting);
+    EXPECT_TRUE(fs::exists(dir / "out/dataset.json"));
+    EXPECT_EQ(read_file(dir / "out.partial/thesis"), "in the way");
+}
+
+TEST_F(PipelineOnDevice, WhatAnIngestLeftGoesWhenAllIsDone) {
+    write_file(dir / "raw/a.lines", "x 1 2\n");
+    LineFormat format;
+    run(format);
+    write_file(dir / "out.partial/journal", "left");
+    write_file(dir / "out.partial/data/shard-00000.h5.partial", "left");
+    EXPECT_TRUE(run(format).was_complete);
+    EXPECT_FALSE(fs::exists(dir / "out.partial"));
+}
+
 TEST_F(PipelineOnDevice, WhatChangedBetweenAStopAndTheNextRunIsMadeAgainAndNamed) {
     run_until_it_stops();
     LineFormat whole;
