@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "base/error.hpp"
+#include "base/files/memory_for.hpp"
 #include "base/process/interruption.hpp"
 #include "base/text/printable.hpp"
 #include "base/text/suggestion.hpp"
@@ -157,11 +158,11 @@ int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add
 } catch (const Interrupted& e) {
     failed(e.what());
     return e.exit_code();
-} catch (const std::bad_alloc&) {
-    return failed(
-        "not enough memory; fewer --threads or a smaller --batch, where there is one, take less, and limits "
-        "may be "
-        "raised (ulimit -v)");
+} catch (const std::bad_alloc& e) {
+    const auto* file = dynamic_cast<const NoMemoryFor*>(&e);
+    return failed(std::string(file ? file->what() : "not enough memory") +
+                  "; fewer --threads or a smaller --batch, where there is one, take less, and limits may be "
+                  "raised (ulimit -v)");
 } catch (const std::system_error& e) {  // of fmt::print, where standard output is a pipe that nobody reads
     return e.code() == std::errc::broken_pipe ? 128 + SIGPIPE : failed(e.what());
 } catch (const std::exception& e) {

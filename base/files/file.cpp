@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "base/files/descriptor.hpp"
+#include "base/files/memory_for.hpp"
 #include "base/files/regular_file.hpp"
 
 namespace actformer {
@@ -38,7 +39,11 @@ std::string_view read_text(const fs::path& path, std::vector<char>& scratch, std
     if (size > limit)
         throw Error("{}: {}, and a file of this kind has at most {}; look whether it is the right file",
                     path.string(), in_units(size), in_units(limit));
-    if (scratch.size() < size + text_padding) scratch.resize(size + text_padding);
+    try {
+        if (scratch.size() < size + text_padding) scratch.resize(size + text_padding);
+    } catch (const std::bad_alloc&) {
+        throw NoMemoryFor(path);
+    }
     const auto got = read_fully(file.get(), scratch.data(), size, path);
     std::memset(scratch.data() + got, 0, text_padding);
     return {scratch.data(), got};

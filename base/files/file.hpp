@@ -15,7 +15,7 @@ namespace actformer {
 constexpr std::size_t text_padding = 64;
 
 /// The text of `path` in `scratch` (which only ever grows), followed by text_padding zero bytes.
-/// Throws Error where it cannot be read or is larger than `limit` bytes.
+/// Throws Error where it cannot be read or is larger than `limit` bytes, NoMemoryFor where there is no memory for it.
 std::string_view read_text(const std::filesystem::path& path, std::vector<char>& scratch,
                            std::uint64_t limit);
 
