@@ -9,12 +9,13 @@
 #include <filesystem>
 #include <regex>
 #include <set>
+#include <sstream>
 
-#include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/toy_dataset.hpp"
+#include "tests/support/toy_recogniser.hpp"
 #include "tests/support/tree.hpp"
 
 namespace actformer::test {
@@ -138,18 +139,6 @@ struct FailingWrites : testing::Test {
     }
 };
 
-std::string weights_for(const fs::path& dataset, const TempDir& dir) {
-    const ingest::Dataset opened(dataset);
-    const auto& header = opened.header();
-    const auto graph = eval::recogniser_graph(header.topology.parents);
-    const auto channels = header.persons * header.representation.numbers();
-    eval::write_stgcn_weights(
-        dir / "recogniser.h5",
-        eval::random_stgcn_weights(static_cast<std::uint32_t>(channels),
-                                   static_cast<std::uint32_t>(header.classes.size()), graph, 0.125, 5));
-    return (dir / "recogniser.h5").string();
-}
-
 }  // namespace
 
 TEST_F(FailingWrites, Synth) {
@@ -181,13 +170,10 @@ TEST_F(FailingWrites, Export) {
 }
 
 TEST_F(FailingWrites, Scores) {
-    const auto weights = weights_for(toy(), dir);
+    const auto weights = at("recogniser.h5");
+    write_toy_recogniser(toy(), weights);
     ASSERT_EQ(run_actformer("export " + toy().string() + " -o " + at("m.h5") + " --split s/train").exit, 0);
-    const ingest::Dataset dataset(toy());
-    std::string labels;
-    for (const auto& clip : dataset.clips())
-        labels += fmt::format("{} {}\n", clip.name, dataset.header().classes.at(clip.label));
-    write_file(dir / "labels.txt", labels);
+    write_file(dir / "labels.txt", labels_of_clips(toy()));
     check({"features",
            "features --recogniser " + weights + " " + toy().string() + " --split s/test -o {}/f.h5"});
     check({"classify", "classify --recogniser " + weights + " " + at("m.h5") + " -o {}/c.csv"});
@@ -238,6 +224,74 @@ TEST_F(FailingWrites, Trainings) {
            AfterFailure::resumes, weights, false, tried});
     ASSERT_EQ(run_actformer("train generator -c " + at("g.yaml") + data + " -o " + at("run")).exit, 0);
     check({"generate", "generate --generator " + at("run") + " --per-class 2 -o {}/m.h5"});
+}
+
+namespace {
+
+/// A command's calls in order, each its name and path.
+std::vector<std::string> calls_of(const TempDir& dir, const std::string& arguments) {
+    const auto list = (dir / "list").string();
+    fs::remove(list);
+    const auto ran = run_command(fmt::format(
+        "env XDG_CACHE_HOME={} FAIL_BELOW={} FAIL_LIST={} LD_PRELOAD={} {} {}", (dir / "cache").string(),
+        (dir / "out").string(), list, failing_calls(), program(), arguments));
+    EXPECT_EQ(ran.exit, 0) << ran.output;
+    std::vector<std::string> calls;
+    std::istringstream lines(read_file(list));
+    for (std::string line; std::getline(lines, line);) calls.push_back(line);
+    return calls;
+}
+
+/// Where the last of `calls` is that is called one of `names`, of this path; -1 where none is.
+std::ptrdiff_t last_of(const std::vector<std::string>& calls, std::initializer_list<std::string> names,
+                       const std::string& path) {
+    for (auto i = std::ssize(calls); i-- > 0;)
+        for (const auto& name : names)
+            if (calls[static_cast<std::size_t>(i)] == name + " " + path) return i;
+    return -1;
+}
+
+std::ptrdiff_t last_write(const std::vector<std::string>& calls, const std::string& path) {
+    return last_of(calls, {"write", "writev", "pwrite", "pwrite64", "ftruncate", "ftruncate64"}, path);
+}
+
+}  // namespace
+
+TEST_F(FailingWrites, AFileIsOnTheDiskBeforeItHasItsName) {
+    write_toy_recogniser(toy(), dir / "r.h5");
+    fs::create_directory(dir / "out");
+    const auto clip = " --clip " + ingest::Dataset(toy()).clips()[0].name;
+    const auto from = "export " + toy().string() + clip + " -o ";
+    for (const auto& [file, command] :
+         {std::pair{"a.h5", from},
+          {"a.npz", from},
+          {"a.bvh", from},
+          {"f.h5", "features --recogniser " + at("r.h5") + " " + toy().string() + " --split s/test -o "}}) {
+        const auto path = at(std::string("out/") + file);
+        const auto calls = calls_of(dir, command + path);
+        const auto written = last_write(calls, path + ".partial"),
+                   synced = last_of(calls, {"fsync"}, path + ".partial"),
+                   named = last_of(calls, {"rename", "renameat"}, path),
+                   listed = last_of(calls, {"fsync"}, at("out"));
+        EXPECT_TRUE(0 <= written && written < synced && synced < named && named < listed)
+            << file << ": " << fmt::format("{}", fmt::join(calls, "\n"));
+    }
+}
+
+TEST_F(FailingWrites, ADatasetIsOnTheDiskBeforeItHasItsName) {
+    const auto out = at("out");
+    const auto calls = calls_of(dir, "ingest bvh " + (toy().parent_path() / "raw").string() + " -o " + out +
+                                         " --name '{action}_{part}_{index}' --threads 1");
+    const auto named = last_of(calls, {"rename", "renameat"}, out);
+    const auto files = tree(out);
+    EXPECT_TRUE(files.contains("shard-00000.h5")) << "and those beside it";
+    for (const auto& [name, bytes] : files) {
+        const auto path = out + ".partial/data/" + name;
+        const auto written = last_of(calls, {"rename", "renameat"}, path),
+                   synced = last_of(calls, {"fsync"}, path);
+        EXPECT_TRUE(0 <= written && written < synced && synced < named)
+            << name << ": " << fmt::format("{}", fmt::join(calls, "\n"));
+    }
 }
 
 }  // namespace actformer::test

@@ -4,6 +4,8 @@
 //   FAIL_AT      which call, from 1; 0 or absent: none
 //   FAIL_ON      1: all calls behind it fail too, as on a disk that stays full
 //   FAIL_COUNT   a file that is told at the end how many calls there were
+//   FAIL_LIST    a file that is told of every call before it is made: a line of its name and path
+//   FAIL_WAITS   a file: the call FAIL_AT does not fail, but waits until that is there
 // Nothing is written or named by a call that fails; a descriptor whose closing fails is closed. The error is ENOSPC, or EIO of what
 // brings bytes to the disk.
 #include <dlfcn.h>
@@ -29,12 +31,16 @@ struct Plan {
     const char* below = std::getenv("FAIL_BELOW");
     long at = std::getenv("FAIL_AT") ? std::atol(std::getenv("FAIL_AT")) : 0;
     bool on = std::getenv("FAIL_ON") != nullptr;
+    const char* waits = std::getenv("FAIL_WAITS");
     const char* count = std::getenv("FAIL_COUNT");
+    const char* list = std::getenv("FAIL_LIST");
     pid_t process = ::getpid();
     ~Plan() {
         if (!count || ::getpid() != process) return;
-        const auto text = std::to_string(calls.load());
-        const long file = ::syscall(SYS_openat, AT_FDCWD, count, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+        put(count, O_TRUNC, std::to_string(calls.load()));
+    }
+    static void put(const char* path, int how, const std::string& text) {
+        const long file = ::syscall(SYS_openat, AT_FDCWD, path, O_WRONLY | O_CREAT | how, 0600);
         ::syscall(SYS_write, file, text.data(), text.size());
         ::syscall(SYS_close, file);
     }
@@ -51,24 +57,30 @@ bool is_below(const char* path) {
 }
 
 /// Counts a call; whether it must fail.
-bool fails(int error) {
+bool fails(int error, const char* name, const std::string& path) {
     const auto& p = plan();
     if (::getpid() != p.process) return false;  // a child that only closes what it has from its parent
     const long n = ++calls;
+    if (p.list) Plan::put(p.list, O_APPEND, std::string(name) + " " + path + "\n");
+    if (p.waits) {
+        constexpr useconds_t while_absent = 1000;
+        while (n == p.at && ::access(p.waits, F_OK) != 0) ::usleep(while_absent);
+        return false;
+    }
     if (p.at == 0 || n < p.at || (n > p.at && !p.on)) return false;
     errno = error;
     return true;
 }
 
-/// Whether a descriptor is of a file or folder below the one watched, as the kernel has it: the C library opens and closes some without
-/// telling.
-bool watched(int fd) {
+/// The path of a descriptor's file or folder where that is below the one watched, as the kernel has it: the C library opens and closes
+/// some without telling. Else empty.
+std::string watched(int fd) {
     char path[4096];
     const auto link = "/proc/self/fd/" + std::to_string(fd);
     const auto size = ::readlink(link.c_str(), path, sizeof path - 1);
-    if (size <= 0) return false;
+    if (size <= 0) return {};
     path[size] = 0;
-    return is_below(path);
+    return is_below(path) ? path : std::string();
 }
 
 template <typename Function>
@@ -78,7 +90,7 @@ Function* real(const char* name) {
 
 int opened(int folder, const char* path, int flags, mode_t mode) {
     const bool writes = (flags & O_ACCMODE) != O_RDONLY || (flags & O_CREAT) != 0;
-    if (is_below(path) && writes && fails(ENOSPC)) return -1;
+    if (is_below(path) && writes && fails(ENOSPC, "open", path)) return -1;
     static auto* const next = real<int(int, const char*, int, ...)>("openat");
     return next(folder, path, flags, mode);
 }
@@ -90,20 +102,20 @@ mode_t mode_of(int flags, va_list rest) {
 /// A call on a descriptor that is written to.
 template <typename Result, typename... Arguments>
 Result on_descriptor(const char* name, int error, int fd, Arguments... arguments) {
-    if (watched(fd) && fails(error)) return -1;
+    if (const auto path = watched(fd); !path.empty() && fails(error, name, path)) return -1;
     return real<Result(int, Arguments...)>(name)(fd, arguments...);
 }
 
 /// A call that makes or changes names.
 template <typename... Arguments>
 int on_path(const char* name, const char* path, Arguments... arguments) {
-    if (is_below(path) && fails(ENOSPC)) return -1;
+    if (is_below(path) && fails(ENOSPC, name, path)) return -1;
     return real<int(Arguments...)>(name)(arguments...);
 }
 
 FILE* opened_stream(const char* name, const char* path, const char* mode) {
     const bool writes = std::strpbrk(mode, "wa+") != nullptr;
-    if (is_below(path) && writes && fails(ENOSPC)) return nullptr;
+    if (is_below(path) && writes && fails(ENOSPC, name, path)) return nullptr;
     return real<FILE*(const char*, const char*)>(name)(path, mode);
 }
 
@@ -183,9 +195,9 @@ int syncfs(int fd) noexcept {
 
 int close(int fd) {
     const int flags = ::fcntl(fd, F_GETFL);
-    const bool written = flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && watched(fd);
+    const auto written = flags >= 0 && (flags & O_ACCMODE) != O_RDONLY ? watched(fd) : std::string();
     const auto done = static_cast<int>(::syscall(SYS_close, fd));
-    return written && fails(EIO) ? -1 : done;
+    return !written.empty() && fails(EIO, "close", written) ? -1 : done;
 }
 
 int rename(const char* from, const char* to) noexcept {
