@@ -24,7 +24,13 @@ Json with_checksum(Json object) {
 }
 
 OwnChecksum own_checksum_of(const Json& object) {
-    if (!object.is_object() || !object.contains(key)) return OwnChecksum::absent;
+    if (!object.is_object()) return OwnChecksum::absent;
+    if (!object.contains(key)) {
+        const auto program = object.find("program");
+        const bool is_own = program != object.end() && program->is_string() &&
+                            names_this_program(program->get_ref<const std::string&>());
+        return is_own ? OwnChecksum::wrong : OwnChecksum::absent;
+    }
     auto others = object;
     others.erase(key);
     return object[key] == checksum_of_members(others) ? OwnChecksum::right : OwnChecksum::wrong;

@@ -12,11 +12,21 @@ namespace {
 constexpr std::string_view before_digits = "\nchecksum ";
 constexpr std::size_t digits = 32, line_size = before_digits.size() + digits + 1;
 
-/// A line with a few wrong characters is still one, and damaged.
+bool is_digit(char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+}
+
+/// The beginning of such a line, where the file was cut in it.
+bool ends_in_cut_line(std::string_view end) {
+    const auto at = end.rfind(before_digits);
+    return at != end.npos && std::ranges::all_of(end.substr(at + before_digits.size()), is_digit);
+}
+
+/// A line with a few wrong characters is still one, and damaged. So is one that was cut.
 bool is_checksum_line(std::string_view line) {
     constexpr int most_wrong = 4;
+    if (ends_in_cut_line(line)) return true;
     if (line.size() != line_size) return false;
-    const auto is_digit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
     auto wrong = digits - std::ranges::count_if(line.substr(before_digits.size(), digits), is_digit);
     for (std::size_t i = 0; i < before_digits.size(); ++i) wrong += line[i] != before_digits[i];
     wrong += line.back() != '\n';
@@ -45,6 +55,16 @@ std::string checksum_line(std::string_view bytes) {
 
 std::string checksum_line_of(const Checksum& bytes) {
     return line_of(bytes.hex());
+}
+
+bool names_this_program(std::string_view program) {
+    constexpr std::string_view name = "actformer ";
+    return program.size() > name.size() && program.starts_with(name) && program[name.size()] >= '0' &&
+           program[name.size()] <= '9';
+}
+
+bool has_checksum_line(const std::filesystem::path& path) {
+    return is_checksum_line(end_of(path, std::filesystem::file_size(path)));
 }
 
 OwnChecksum own_checksum(std::string_view bytes) {

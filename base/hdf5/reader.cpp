@@ -4,6 +4,7 @@
 #include <fstream>
 #include <limits>
 
+#include "base/checksum/own_checksum.hpp"
 #include "base/hdf5/attribute_bytes.hpp"
 #include "base/hdf5/checked_chunk.hpp"
 #include "base/hdf5/opening.hpp"
@@ -87,10 +88,27 @@ std::optional<std::uint64_t> header_address(hid_t file, const char* name) {
 }  // namespace
 
 Reader::Reader(const std::filesystem::path& path)
-    : path_(path.string()), file_(open_to_read(path)), bytes_(std::filesystem::file_size(path)) {}
+    : path_(path.string()), file_(open_to_read(path)), bytes_(std::filesystem::file_size(path)) {
+    if (!has_checksum_line(path)) refuse_own_without_checksum();
+}
 
 Reader::Reader(std::string_view image, const std::string& name)
-    : path_(name), image_(image), file_(open_in_memory(image, name)), bytes_(image.size()) {}
+    : path_(name), image_(image), file_(open_in_memory(image, name)), bytes_(image.size()) {
+    if (own_checksum(image) == OwnChecksum::absent) refuse_own_without_checksum();
+}
+
+void Reader::refuse_own_without_checksum() const {
+    if (!has_attribute("program") || has_attribute("dataset")) return;
+    std::vector<std::string> program;
+    try {
+        program = attribute_texts("program");
+    } catch (const Error&) {  // no text: another program's
+    }
+    if (program.size() == 1 && names_this_program(program[0]))
+        fail(
+            "damaged: its checksum is missing; make it again, or copy it again. If you changed it, remove "
+            "its attribute 'program'");
+}
 
 std::vector<std::string> Reader::names() const {
     std::vector<std::string> names;

@@ -22,7 +22,8 @@ namespace actformer::hdf5 {
 /// virtual arrays are refused.
 ///
 /// A file that ends in a checksum (see Writer) is read whole once and compared with it before HDF5 sees any of it; files without one,
-/// as other programs write them, are read as they are.
+/// as other programs write them, are read as they are. One without whose attribute `program` names this program is refused, but for
+/// those with an attribute `dataset`: theirs stand in that.
 class Reader {
   public:
     /// Throws Error that tells a file which another program writes from a damaged one.
@@ -100,6 +101,7 @@ class Reader {
         throw Error("{}: {}", path_, fmt::format(text, std::forward<Args>(args)...));
     }
 
+    void refuse_own_without_checksum() const;
     Array open(const std::string& name) const;
     void refuse_links_away(const std::string& name, int depth = 0) const;
     void check_layout(Array& array) const;

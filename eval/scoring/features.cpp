@@ -35,6 +35,7 @@ class Output {
         file_.names(motions_.names);
         if (!motions_.labels.empty()) file_.labels(motions_.labels);
         file_.frames(motions_.shortest, motions_.longest);
+        file_.note("program", "actformer " ACTFORMER_VERSION);
         file_.note("version", ACTFORMER_VERSION);
         file_.note("recogniser", extractor_.checksum());
         file_.note("input", motions_.fingerprint);

@@ -80,12 +80,12 @@ DatasetFile from_json(const Json& json, const std::string& where) {
         throw Error(
             "{}: format {}, but this program reads formats 1 to {}; use the version it was written with ({})",
             where, format, dataset_format, json.value("program", "unknown"));
-    if (own_checksum_of(json) == OwnChecksum::wrong)
+    const bool of_old = json.at("format") < first_format_with_checksum && !json.contains("checksum");
+    if (!of_old && own_checksum_of(json) == OwnChecksum::wrong)
         throw Error(
-            "{}: damaged: its checksum is of other contents; copy it again, or ingest the raw data again. If "
-            "you edited "
-            "it, take out its member \"checksum\"",
-            where);
+            "{}: damaged: its checksum is {}; copy it again, or ingest the raw data again. If you edited it, "
+            "take out its members \"checksum\" and \"program\"",
+            where, json.contains("checksum") ? "of other contents" : "missing");
     DatasetFile file;
     auto& header = file.header;
     header.name = json.at("name").get<std::string>();

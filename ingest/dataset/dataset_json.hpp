@@ -13,6 +13,7 @@ namespace actformer::ingest {
 /// Format 1 differs in its shards' checksums, which are of the files' bytes: under "checksum" in place of "contents". From format 3 on
 /// dataset.json has a checksum of its own, and one of every shard's metadata.
 constexpr int dataset_format = 3;
+constexpr int first_format_with_checksum = 3;
 
 /// Everything dataset.json holds.
 struct DatasetFile {

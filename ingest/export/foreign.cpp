@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/checksum/own_checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/mapped_file.hpp"
 #include "base/hdf5/reader.hpp"
@@ -12,13 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "actformer 0.1.0", and not "actformer, the Python package": those motions are the user's.
-bool names_this_program(std::string_view program) {
-    constexpr std::string_view name = "actformer ";
-    return program.size() > name.size() && program.starts_with(name) && program[name.size()] >= '0' &&
-           program[name.size()] <= '9';
-}
-
+/// Motions of the Python package are the user's.
 bool is_of_this_program(const hdf5::Reader& file) {
     if (!file.has_attribute("program")) return false;
     const auto program = file.attribute_texts("program");

@@ -144,7 +144,8 @@ bool read_record(const fs::path& out, const std::string& request, IngestSummary&
     expect_shallow_json(text, path);
     try {
         const auto json = nlohmann::ordered_json::parse(text);
-        if (own_checksum_of(json) == OwnChecksum::wrong) throw Error("its checksum is of other contents");
+        if (own_checksum_of(json) == OwnChecksum::wrong)
+            throw Error("its checksum is of other contents, or missing");
         if (json.at("request") != request) return false;
         take_summary(json, out, summary);
         return true;

@@ -36,6 +36,12 @@ void add_own_tables(std::vector<PaperTable>& tables, const Json& results, const 
     }
 }
 
+/// What tells the version that wrote it has a checksum too.
+bool is_damaged(const Json& json, const Json& version) {
+    const auto said = own_checksum_of(json);
+    return said == OwnChecksum::wrong || (said == OwnChecksum::absent && version.is_string());
+}
+
 Json read_results(const fs::path& folder) {
     const auto path = folder / "results.json";
     if (!fs::is_regular_file(path))
@@ -44,7 +50,7 @@ Json read_results(const fs::path& folder) {
             "wrote",
             folder.string());
     auto json = loose::read(path);
-    if (!loose::member(json, "rows").is_array() || own_checksum_of(json) == OwnChecksum::wrong)
+    if (!loose::member(json, "rows").is_array() || is_damaged(json, loose::member(json, "version")))
         throw Error("{}: damaged, or not a sweep's results; `actformer sweep` again writes it anew",
                     path.string());
     if (loose::member(json, "format") != Json(1))
@@ -63,7 +69,8 @@ Json read_scores(const MeasuredRun& run, const std::string& row, std::vector<std
         notices.push_back(fmt::format("{}, seed {}: {}", row, run.seed, e.what()));
         return {};
     }
-    if (json.is_object() && own_checksum_of(json) != OwnChecksum::wrong) return json;
+    const auto& origin = loose::member(json, "provenance");
+    if (json.is_object() && !is_damaged(json, loose::member(origin, "version"))) return json;
     notices.push_back(fmt::format("{}, seed {}: {} is {}; `actformer sweep` again makes it anew", row,
                                   run.seed, run.scores.string(),
                                   fs::exists(run.scores) ? "damaged" : "missing"));

@@ -35,9 +35,11 @@ Json checksums_of_results(const fs::path& folder) {
 std::string fault_of_results(const fs::path& folder) {
     const auto path = folder / "done.json";
     const auto done = loose::read(path);
-    if (!done.is_object() || own_checksum_of(done) == OwnChecksum::wrong)
-        return fmt::format("{}: damaged", path.string());
+    const auto said = own_checksum_of(done);
     const auto& made = loose::member(done, "made");
+    const bool lost = said == OwnChecksum::absent && made.is_object();  // those of old tell nothing made
+    if (!done.is_object() || said == OwnChecksum::wrong || lost)
+        return fmt::format("{}: damaged", path.string());
     if (!made.is_object()) return {};
     for (const auto& [name, sum] : made.items()) {
         std::error_code missing;

@@ -83,7 +83,7 @@ def make_sweep(program, folder, runs):
                      "runs": [{"seed": i, "status": "done", "scores": f"job{i}/scores.json", "run": f"job{i}",
                                "features": f"job{i}/features", "motions": f"job{i}/motions.h5",
                                "recogniser": f"job{i % 3 == 0}", "dataset": str(folder / "data" / kind)}]})
-    (folder / "out" / "results.json").write_text(json.dumps({"format": 1, "sweep": "scale", "version": "0", "rows": rows}))
+    (folder / "out" / "results.json").write_text(json.dumps({"format": 1, "sweep": "scale", "rows": rows}))
 
 
 def main():

@@ -202,7 +202,7 @@ TEST_F(FailingWrites, Pictures) {
 }
 
 TEST_F(FailingWrites, Report) {
-    write_file(dir / "sweep/results.json", R"({"format": 1, "sweep": "s", "version": "0.1.0", "rows": []})");
+    write_file(dir / "sweep/results.json", R"({"format": 1, "sweep": "s", "rows": []})");
     check({"report", "report " + at("sweep") + " -o {}/r.html --csv {}/r.csv --latex {}/r.tex"});
 }
 

@@ -590,9 +590,14 @@ TEST_F(IngestNtu, WhatWasDoubtfulStaysWithTheDatasetItIsOf) {
     auto json = nlohmann::json::parse(read_file(path));
     json.erase("remarks");
     write_file(path, json.dump());
-    EXPECT_NE(run_actformer("inspect " + out()).output.find("take out its member \"checksum\""),
+    EXPECT_NE(run_actformer("inspect " + out()).output.find("take out its members \"checksum\""),
               std::string::npos);
     json.erase("checksum");
+    write_file(path, json.dump());
+    actformer::test::expect_refused(
+        run_actformer("inspect " + out()),
+        {"dataset.json: damaged: its checksum is missing", "\"checksum\" and \"program\""});
+    json.erase("program");
     write_file(path, json.dump());
     EXPECT_TRUE(Dataset(dir / "out/ntu-1p").remarks().empty()) << "as datasets of old have none";
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/checksum/checked_json.hpp"
 #include "base/files/lock.hpp"
 #include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/dataset.hpp"
@@ -154,8 +155,7 @@ TEST_F(ReportPage, IsWrittenAnewUntilTheSweepIsDone) {
     fs::copy(results, dir / "done.json");
     auto json = nlohmann::ordered_json::parse(read_file(results));
     json["rows"][0]["status"] = json["rows"][0]["runs"][0]["status"] = "waiting";
-    json.erase("checksum");
-    write_file(results, json.dump());
+    write_file(results, with_checksum(json).dump());
     // The first page is there before the sweep ends.
     const auto result = run_command("cd " + at("") + "; " + program() +
                                     " report out -o r.html --watch 1 & until [ -e r.html ] || ! kill -0 $!; "
@@ -231,9 +231,8 @@ TEST_F(ReportPage, HoldsNoEmptyTablesOfPapersThatNothingWasRunFor) {
     auto json = nlohmann::ordered_json::parse(read_file(dir / "out/results.json"));
     for (auto& row : json["rows"]) row["fills"] = nlohmann::json::array();
     json["tables"] = "mine: {columns: [{dataset: CMU, metrics: [FIDm]}], rows: {Mine: {}}}";
-    json.erase("checksum");
     const auto written = [&] {
-        write_file(dir / "out/results.json", json.dump());
+        write_file(dir / "out/results.json", with_checksum(json).dump());
         return run_actformer("report " + at("out") + " -o " + at("r.html") + " --csv " + at("t.csv") +
                              " --latex " + at("t.tex"));
     };

@@ -83,11 +83,48 @@ TEST_F(OwnFile, AFileCutShortIsTold) {
     const auto whole = read_file(path);
     for (const std::size_t size : {whole.size() - 1, whole.size() - 50, whole.size() / 2, std::size_t{0}}) {
         write_file(path, whole.substr(0, size));
-        if (size == whole.size() - 1)
-            EXPECT_EQ(numbers(), (std::vector<float>{1, 2, 3})) << "only the checksum's end is missing";
-        else
-            EXPECT_NE(error_of([&] { numbers(); }).find("file.h5: "), std::string::npos) << size;
+        EXPECT_NE(error_of([&] { numbers(); }).find("file.h5: "), std::string::npos) << size;
     }
+    const std::string shortest = "\nchecksum ";
+    for (auto size = whole.size() - checksum_line("").size() + shortest.size(); size < whole.size(); ++size) {
+        write_file(path, whole.substr(0, size));
+        EXPECT_NE(error_of([&] { numbers(); }).find("file.h5: damaged"), std::string::npos) << size;
+    }
+}
+
+TEST_F(OwnFile, OneThatThisProgramWroteIsRefusedWithoutItsChecksum) {
+    const auto error_without = [&](const std::function<void(hdf5::Writer&)>& note) {
+        hdf5::Writer file(path);
+        file.write<float>("numbers", {3}, std::vector<float>{1, 2, 3});
+        note(file);
+        file.finish();
+        const auto whole = read_file(path),
+                   without = whole.substr(0, whole.size() - checksum_line("").size());
+        write_file(path, without);
+        const auto why = error_of([&] { numbers(); });
+        const auto in_memory = error_of([&] { hdf5::Reader(without, "in memory"); });
+        EXPECT_EQ(in_memory.empty(), why.empty()) << in_memory;
+        write_file(path, whole);
+        EXPECT_EQ(numbers(), (std::vector<float>{1, 2, 3}));
+        return why;
+    };
+    const auto by = [](const char* program) {
+        return [program](hdf5::Writer& file) { file.attribute("program", std::string(program)); };
+    };
+    const auto why = error_without(by("actformer 0.1.0"));
+    EXPECT_NE(why.find("file.h5: damaged: its checksum is missing"), std::string::npos) << why;
+    EXPECT_NE(why.find("remove its attribute 'program'"), std::string::npos) << why;
+    EXPECT_EQ(error_without(by("actformer, the Python package")), "");
+    EXPECT_EQ(error_without(by("another")), "");
+    EXPECT_EQ(
+        error_without([](hdf5::Writer& file) { file.attribute("program", std::vector<std::int64_t>{7}); }),
+        "");
+    EXPECT_EQ(error_without([&](hdf5::Writer& file) {
+                  by("actformer 0.1.0")(file);
+                  file.attribute("dataset", std::string("a shard's"));
+              }),
+              "")
+        << "its checksum stands in dataset.json";
 }
 
 TEST_F(OwnFile, OneThatAnotherProgramChangedIsReadAsItIs) {
@@ -123,4 +160,15 @@ TEST(CheckedJson, TellsAnyOtherMemberAndNoOtherSpacesOrOrder) {
     other = checked;
     other["more"] = 1;
     EXPECT_EQ(own_checksum_of(other), OwnChecksum::wrong);
+}
+
+TEST(CheckedJson, OneThatThisProgramWroteHasAChecksum) {
+    for (const auto& [program, said] : {std::pair{Json("actformer 0.1.0"), OwnChecksum::wrong},
+                                        {"actformer, the Python package", OwnChecksum::absent},
+                                        {"actformer ", OwnChecksum::absent},
+                                        {7, OwnChecksum::absent}}) {
+        Json object{{"program", program}, {"fps", 30}};
+        EXPECT_EQ(own_checksum_of(object), said) << program;
+        EXPECT_EQ(own_checksum_of(with_checksum(object)), OwnChecksum::right) << program;
+    }
 }

@@ -23,6 +23,7 @@ std::string error_after(Representation how, const std::function<void(nlohmann::j
     auto json = nlohmann::json::parse(read_file(dir / "data/dataset.json"));
     change(json);
     json.erase("checksum");
+    json.erase("program");
     write_file(dir / "data/dataset.json", json.dump());
     try {
         const Dataset dataset(dir / "data");

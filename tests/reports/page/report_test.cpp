@@ -60,7 +60,7 @@ struct Report : ::testing::Test {
     }
     Measured read() {
         write(dir / "out" / "results.json",
-              Json{{"format", 1}, {"sweep", "test"}, {"version", "0"}, {"rows", rows}}.dump());
+              with_checksum(Json{{"format", 1}, {"sweep", "test"}, {"version", "0"}, {"rows", rows}}).dump());
         return read_measured({dir / "out"});
     }
 };
@@ -300,14 +300,21 @@ TEST_F(Report, WhatIsNotAsItWasWrittenIsTold) {
     write(dir / "wrong" / "results.json", wrong.dump());
     EXPECT_NE(error_of([&] { read_measured({dir / "wrong"}); }).find("damaged"), std::string::npos);
 
-    auto changed = with_checksum(scores({0.2}, {1}));
+    write(dir / "cut" / "results.json",
+          Json{{"format", 1}, {"version", "0"}, {"rows", Json::array()}}.dump());
+    EXPECT_NE(error_of([&] { read_measured({dir / "cut"}); }).find("damaged"), std::string::npos);
+
+    auto changed = with_checksum(scores({0.2}, {1})), cut = scores({0.2}, {1});
     changed["accuracy"]["mean"] = 0.9;
-    add("full", "table3/full/NTU-1P", {with_checksum(scores({0.2}, {1})), changed});
+    cut["provenance"] = {{"version", "0.1.0"}};
+    add("full", "table3/full/NTU-1P", {with_checksum(scores({0.2}, {1})), changed, cut});
     const auto measured = read();
-    const auto told = [](const std::string& notice) {
-        return notice.find("full1.json is damaged") != std::string::npos;
-    };
-    EXPECT_EQ(std::ranges::count_if(measured.notices, told), 1);
+    for (const auto* damaged : {"full1.json is damaged", "full2.json is damaged"})
+        EXPECT_EQ(std::ranges::count_if(
+                      measured.notices,
+                      [&](const std::string& notice) { return notice.find(damaged) != std::string::npos; }),
+                  1)
+            << damaged;
 }
 
 TEST_F(Report, NamesAreTextInEveryForm) {
