@@ -251,8 +251,9 @@ TEST(Append, OpensNeitherLinksNorWhatIsNoRegularFile) {
                                      {"folder", "a folder"},
                                      {"fifo", "a FIFO"}}) {
         const auto why = fmt::format("{}: {}, where a regular file is expected; move it away", name, kind);
-        EXPECT_TRUE(says(error_of([&] { append(dir / name, "x"); }), why));
-        EXPECT_TRUE(says(error_of([&] { open_regular(dir / name, O_RDONLY); }), why));
+        const auto path = dir / name;
+        EXPECT_TRUE(says(error_of([&] { append(path, "x"); }), why));
+        EXPECT_TRUE(says(error_of([&] { open_regular(path, O_RDONLY); }), why));
     }
     EXPECT_FALSE(fs::exists(dir / "nowhere"));
     EXPECT_TRUE(says(error_of([] { append("/dev/full", "x"); }), "/dev/full: a device, where"));
