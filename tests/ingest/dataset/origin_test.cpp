@@ -47,6 +47,7 @@ TEST(DataOrigin, StandsInDatasetJsonWhereItIsTold) {
     auto text = to_text(file_of({recorded, ""}));
     text.replace(text.find("recorded"), 8, "invented");
     text.replace(text.find("\"checksum\""), 10, "\"none\"");
+    text.replace(text.find("\"program\""), 9, "\"nobody\"");
     write_file(dir / "dataset.json", text);
     try {
         read_dataset_json(dir / "dataset.json");

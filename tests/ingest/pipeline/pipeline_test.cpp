@@ -302,7 +302,8 @@ TEST_F(PipelineOnDevice, WhatNoIngestMadeIsNotWorkedInNorRemoved) {
     for (const auto& [out, named] : {std::pair{"link", "link.partial: a symbolic link"},
                                      {"other", "other.partial/data/chapter: "},
                                      {"there", "there/.partial/data/chapter: "}}) {
-        const auto why = error_of([&] { run(format, out); });
+        const auto* const place = out;
+        const auto why = error_of([&] { run(format, place); });
         EXPECT_NE(why.find(named), std::string::npos) << why;
         EXPECT_FALSE(fs::exists(dir / out / "dataset.json"));
     }
