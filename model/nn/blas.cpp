@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <torch/version.h>
 
 #include <algorithm>
@@ -74,18 +75,28 @@ int threads_asked_for() {
 /// What OpenBLAS maps for a thread that multiplies (its BUFFER_SIZE on x86-64), and keeps.
 constexpr std::size_t openblas_buffer = std::size_t{128} << 20;  // bytes
 
-/// Lets OpenBLAS take its buffer for this thread now. It asks for it at the first product, and again without end where it gets none.
-/// Its own threads have taken theirs by now, or are at it: then there is not enough for this one either. Throws Error.
-void take_openblas_buffer() {
-    if (library_of_sgemm().find("openblas") == std::string::npos) return;
+/// Throws Error where a limit on memory leaves no room for the buffers of OpenBLAS's own threads and of `threads` that call it. Its own may
+/// have theirs by now: then this asks for more than is needed, and never for less.
+void expect_openblas_buffers(int threads) {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+    using Count = int (*)();
+    const auto own = reinterpret_cast<Count>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
+    const auto bytes = static_cast<std::size_t>((own ? own() : 1) + threads) * openblas_buffer;
     void* const room =
-        ::mmap(nullptr, openblas_buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (room == MAP_FAILED)
         throw Error(
             "not enough memory for matrix products: OpenBLAS maps {} MiB a thread; raise the limit (ulimit "
             "-v), or let it have fewer threads (OMP_NUM_THREADS=1)",
             openblas_buffer >> 20);
-    ::munmap(room, openblas_buffer);
+    ::munmap(room, bytes);
+}
+
+/// Lets OpenBLAS take its buffer for this thread now. It asks for it at the first product, and again without end where it gets none.
+void take_openblas_buffer(int threads) {
+    if (library_of_sgemm().find("openblas") == std::string::npos) return;
+    expect_openblas_buffers(threads);
     constexpr std::int64_t n = 128;  // it multiplies smaller ones without
     const at::NoGradGuard no_gradients;
     at::ones({n, n}).mm(at::ones({n, n}));
@@ -120,7 +131,7 @@ int set_threads(int threads) {
         cpu_set_t allowed;
         threads = sched_getaffinity(0, sizeof allowed, &allowed) == 0 ? CPU_COUNT(&allowed) : 1;
     }
-    take_openblas_buffer();
+    take_openblas_buffer(threads);
     expect_threads(static_cast<unsigned>(threads));  // OpenMP ends the process where it is refused one
     at::set_num_threads(threads);
     return threads;

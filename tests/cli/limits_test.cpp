@@ -62,6 +62,7 @@ TEST_F(Limits, GeneratingInLittleMemoryIsRightOrALine) {
     };
     for (const int mebibytes : {100, 600, 690, 720, 800, 880, 920, 1200}) check(mebibytes, "");
     for (const int mebibytes : {600, 660}) check(mebibytes, "OPENBLAS_CORETYPE=Nehalem");
+    EXPECT_EQ(generate("ulimit -v 4194304; ", "limited.h5").exit, 0);
 }
 
 TEST_F(Limits, NestingIsBounded) {
