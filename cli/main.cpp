@@ -117,17 +117,21 @@ void add_documentation(CLI::App& app) {
 
 /// What the program without a word says: commands that a newcomer can begin with, in any folder. Exit code 1, as nothing was done.
 int first_words() {
-    const auto here = [](const Subprogram& sub) { return std::filesystem::exists(path_of(sub)); };
+    const auto here = [](std::string_view command) {
+        return std::ranges::any_of(subprograms, [&](const Subprogram& sub) {
+            return sub.command == command && std::filesystem::exists(path_of(sub));
+        });
+    };
     std::string lines =
         "actformer: from raw motion capture to a published table.\n\n"
         "To begin with, on motion and weights that come with the program:\n\n"
         "  # recordings become a dataset\n"
         "  actformer ingest bvh examples/cmu/cmu.tar.xz -o cmu --name '{part}/{action}/{*}'\n";
-    if (here(subprograms[0]))
+    if (here("render"))
         lines +=
             "  # four of them, drawn\n"
             "  actformer render cmu --class walking --count 4 -o walking.gif\n";
-    if (here(subprograms[2]))
+    if (here("generate"))
         lines +=
             "  # others of the same actions, made by a trained generator\n"
             "  actformer generate --generator weights/cmu/actformer.h5 -o generated.h5\n";
