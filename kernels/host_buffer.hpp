@@ -42,13 +42,15 @@ class HostBuffer {
     std::size_t size() const { return count_; }
     const cl::Buffer& memory() const { return memory_; }  ///< of a buffer that has a device
 
+    std::span<T> in_memory() { return own_; }  ///< of a buffer without a device, to be filled
+
     /// Asks for the values as they are once everything launched before is done; returns at once.
     void begin_map() {
         if (mapped_ || !device_) return;
         try {
             mapped_ = static_cast<T*>(device_->queue().enqueueMapBuffer(
-                memory_, CL_FALSE, CL_MAP_READ | CL_MAP_WRITE, 0,
-                std::max<std::size_t>(count_, 1) * sizeof(T), nullptr, &ready_));
+                memory_, CL_FALSE, CL_MAP_READ, 0, std::max<std::size_t>(count_, 1) * sizeof(T), nullptr,
+                &ready_));
             device_->queue().flush();
         } catch (const cl::Error& e) {
             raise(device_->info(), "mapping a buffer", e);
@@ -56,7 +58,7 @@ class HostBuffer {
     }
 
     /// Waits for the values. The span is good until unmap() or the end of this buffer; the device must not use it before.
-    std::span<T> map() {
+    std::span<const T> map() {
         if (!device_) return own_;
         begin_map();
         try {

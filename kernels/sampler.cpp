@@ -124,9 +124,9 @@ void Batch::begin(std::uint32_t filled, const ClipStore& clips) {
 
 void Batch::show(std::uint32_t sample, const DrawnWindow& chosen, Padding padding, const ClipStore& clips) {
     kernels::show(clips.table(), clips.in_memory(chosen.clip), chosen, padding, window_,
-                  values_.map().subspan(sample * sample_values_, sample_values_));
-    labels_.map()[sample] = clips.table().labels[chosen.clip];
-    std::ranges::copy(std::array{chosen.clip, chosen.first}, &picks_.map()[std::size_t{sample} * 2]);
+                  values_.in_memory().subspan(sample * sample_values_, sample_values_));
+    labels_.in_memory()[sample] = clips.table().labels[chosen.clip];
+    std::ranges::copy(std::array{chosen.clip, chosen.first}, &picks_.in_memory()[std::size_t{sample} * 2]);
 }
 
 Batch::View Batch::map() {

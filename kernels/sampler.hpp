@@ -56,9 +56,9 @@ class Batch {
     std::uint32_t filled() const { return filled_; }
 
     struct View {
-        std::span<float> values;          ///< (filled, P*numbers, window, nodes)
-        std::span<std::uint32_t> labels;  ///< (filled)
-        std::span<std::uint32_t> picks;   ///< (filled, 2): the clip and its first frame
+        std::span<const float> values;          ///< (filled, P*numbers, window, nodes)
+        std::span<const std::uint32_t> labels;  ///< (filled)
+        std::span<const std::uint32_t> picks;   ///< (filled, 2): the clip and its first frame
     };
 
     /// Waits until the batch is made. The spans are good until it is filled anew, unmapped or gone.

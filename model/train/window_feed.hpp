@@ -17,7 +17,7 @@ inline constexpr std::string_view no_opencl = "none";
 /// Windows in host memory, good until the feed moves on.
 struct Windows {
     std::uint32_t count = 0;
-    float* values = nullptr;                ///< (count, P*C, T, K)
+    const float* values = nullptr;          ///< (count, P*C, T, K)
     const std::uint32_t* labels = nullptr;  ///< (count)
 };
 

@@ -15,7 +15,9 @@ at::Tensor sent(const at::Tensor& values, const at::Device& device) {
 
 at::Tensor values_of(const Windows& windows, std::int64_t channels, std::int64_t frames, std::int64_t joints,
                      const at::Device& device) {
-    return sent(at::from_blob(windows.values, {windows.count, channels, frames, joints}, at::kFloat), device);
+    // from_blob takes no const, and no learner writes to what it learns from.
+    auto* const numbers = const_cast<float*>(windows.values);
+    return sent(at::from_blob(numbers, {windows.count, channels, frames, joints}, at::kFloat), device);
 }
 
 at::Tensor labels_of(const Windows& windows, const at::Device& device) {

@@ -13,27 +13,24 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/command_result.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/warm_training.hpp"
 
 namespace actformer::test {
-
-struct CommandResult {
-    int exit = -1;
-    std::string output;  ///< standard output and error together
-};
 
 inline CommandResult run_command(const std::string& line) {
     CommandResult result;
     FILE* pipe = ::popen(("(" + line + ") 2>&1").c_str(), "r");
     char buffer[4096];
     while (const auto n = std::fread(buffer, 1, sizeof buffer, pipe)) result.output.append(buffer, n);
-    const int status = ::pclose(pipe);
-    result.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    result.exit = exit_code_of(::pclose(pipe));
     return result;
 }
 
 /// The program built beside the tests.
 inline CommandResult run_actformer(const std::string& arguments) {
+    if (auto warm = run_in_warm_training(arguments)) return *std::move(warm);
     return run_command(program() + " " + arguments);
 }
 
@@ -65,7 +62,7 @@ class Child {
     int wait() {
         if (pid_ > 0) ::waitpid(pid_, &status_, 0);
         pid_ = 0;
-        return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+        return exit_code_of(status_);
     }
 
   private:

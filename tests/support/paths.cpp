@@ -6,6 +6,10 @@ std::string program() {
     return ACTFORMER_PROGRAM;
 }
 
+std::string warm_training() {
+    return ACTFORMER_WARM_TRAINING;
+}
+
 std::string failing_calls() {
     return ACTFORMER_FAILING_CALLS;
 }

@@ -8,6 +8,9 @@ namespace actformer::test {
 /// The program built beside the tests.
 std::string program();
 
+/// The process that has loaded the training's library (warm_training_server.cpp).
+std::string warm_training();
+
 /// The library that lets a program's calls fail (failing_calls.cpp).
 std::string failing_calls();
 

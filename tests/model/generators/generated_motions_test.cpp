@@ -21,6 +21,7 @@ constexpr const char* tiny =
 
 struct ScoreGenerator : testing::Test {
     void SetUp() override {
+        ::setenv("XDG_CACHE_HOME", at("cache").c_str(), 1);
         write_file(dir / "toy.yaml", tiny);
         const auto trained = run_actformer("train generator -c " + at("toy.yaml") + " --data " +
                                            toy().string() + " -o " + at("run"));
@@ -28,12 +29,12 @@ struct ScoreGenerator : testing::Test {
         const auto graph = eval::recogniser_graph(ingest::Dataset(toy()).header().topology.parents);
         eval::write_stgcn_weights(dir / "w.h5", eval::random_stgcn_weights(3, 3, graph, 0.125, 5));
     }
+    void TearDown() override { ::unsetenv("XDG_CACHE_HOME"); }
     std::string at(const std::string& name) const { return (dir / name).string(); }
-    std::string line(const std::string& more) const {
-        return "XDG_CACHE_HOME=" + at("cache") + " " + program() + " score --recogniser " + at("w.h5") +
-               " --real " + toy().string() + " --window 16 " + more;
+    std::string words(const std::string& more) const {
+        return "score --recogniser " + at("w.h5") + " --real " + toy().string() + " --window 16 " + more;
     }
-    CommandResult score(const std::string& more) const { return run_command(line(more)); }
+    CommandResult score(const std::string& more) const { return run_actformer(words(more)); }
     nlohmann::json scored(const std::string& more) const {
         const auto result = score(more + " --json");
         EXPECT_EQ(result.exit, 0) << result.output;
@@ -150,7 +151,7 @@ TEST_F(ScoreGenerator, GoesOnWhereItWasInterrupted) {
     // The scores cannot be written: all is done but that. Their file and its lock are opened and closed before the work, to see
     // whether it can be made.
     EXPECT_EQ(run_command("FAIL_BELOW=" + at("s.json.partial") + " FAIL_AT=4 LD_PRELOAD=" + failing_calls() +
-                          " " + line(arguments))
+                          " " + program() + " " + words(arguments))
                   .exit,
               1);
     std::vector<fs::path> kept;
