@@ -2,7 +2,6 @@
 // builds of that library for newer processors, x86-64-v3/PROGRAM.so say: the best that this processor can run is opened, or the one that
 // ACTFORMER_ISA names.
 #include <dlfcn.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -13,8 +12,10 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/process/memory_limit.hpp"
 #include "base/process/processor_level.hpp"
 
+using actformer::memory_is_limited;
 using actformer::processor_levels;
 
 namespace {
@@ -71,11 +72,6 @@ void start_again_with_vectors(const char* program, char** argv) {
     std::fputs("actformer: not enough memory to load the program's libraries; raise the limit (ulimit -v)\n",
                stderr);
     std::_Exit(1);
-}
-
-bool memory_is_limited() {
-    rlimit limit{};
-    return ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
 }
 
 /// For on_exit(3): without the libraries' own ends. OpenBLAS's waits for its threads, and these wait for memory that they cannot get.

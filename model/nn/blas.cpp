@@ -6,7 +6,6 @@
 #include <dlfcn.h>
 #include <sched.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <torch/version.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/process/memory_limit.hpp"
 #include "base/process/processor_level.hpp"
 #include "base/threads/thread.hpp"
 
@@ -78,8 +78,7 @@ constexpr std::size_t openblas_buffer = std::size_t{128} << 20;  // bytes
 /// Throws Error where a limit on memory leaves no room for the buffers of OpenBLAS's own threads and of `threads` that call it. Its own may
 /// have theirs by now: then this asks for more than is needed, and never for less.
 void expect_openblas_buffers(int threads) {
-    rlimit limit{};
-    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+    if (!memory_is_limited()) return;
     using Count = int (*)();
     const auto own = reinterpret_cast<Count>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
     const auto bytes = static_cast<std::size_t>((own ? own() : 1) + threads) * openblas_buffer;
