@@ -63,6 +63,10 @@ bool names_this_program(std::string_view program) {
            program[name.size()] <= '9';
 }
 
+bool has_checksum_line(std::string_view bytes) {
+    return is_checksum_line(bytes.substr(bytes.size() - std::min(bytes.size(), line_size)));
+}
+
 bool has_checksum_line(const std::filesystem::path& path) {
     return is_checksum_line(end_of(path, std::filesystem::file_size(path)));
 }

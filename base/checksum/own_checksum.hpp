@@ -27,7 +27,8 @@ bool names_this_program(std::string_view program);
 /// Whether such a line stands at the end of `bytes`, and is theirs.
 OwnChecksum own_checksum(std::string_view bytes);
 
-/// Whether such a line stands at the end of a file, whatever it says. Throws Error where it cannot be read.
+/// Whether such a line stands at the end of `bytes` or of a file, whatever it says. Throws Error where the file cannot be read.
+bool has_checksum_line(std::string_view bytes);
 bool has_checksum_line(const std::filesystem::path& path);
 
 /// The same as own_checksum() of a file; of one without such a line only the end is read. Throws Error where it cannot be read.

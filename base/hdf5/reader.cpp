@@ -94,7 +94,7 @@ Reader::Reader(const std::filesystem::path& path)
 
 Reader::Reader(std::string_view image, const std::string& name)
     : path_(name), image_(image), file_(open_in_memory(image, name)), bytes_(image.size()) {
-    if (own_checksum(image) == OwnChecksum::absent) refuse_own_without_checksum();
+    if (!has_checksum_line(image)) refuse_own_without_checksum();
 }
 
 void Reader::refuse_own_without_checksum() const {
