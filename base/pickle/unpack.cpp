@@ -16,7 +16,12 @@ namespace {
 constexpr std::string_view zf = "ZF";
 constexpr std::size_t zf_header = 21;  // with the length in hexadecimal, padded with blanks
 
-constexpr std::size_t at_once = std::size_t{1} << 20;
+/// Room behind `out` for more: as much again as it holds, from 16 KiB up to 1 MiB.
+std::size_t add_room(std::string& out) {
+    const auto room = std::clamp(out.size(), std::size_t{16} << 10, std::size_t{1} << 20);
+    out.resize(out.size() + room);
+    return room;
+}
 
 [[noreturn]] void damaged() {
     throw Error("the compressed file is damaged or cut short; get it again");
@@ -48,9 +53,8 @@ std::string inflate_all(std::string_view text, std::uint64_t most) {
             text.remove_prefix(piece.size());
         }
         const auto before = out.size();
-        out.resize(before + at_once);
+        stream.avail_out = static_cast<uInt>(add_room(out));
         stream.next_out = reinterpret_cast<Bytef*>(out.data() + before);
-        stream.avail_out = static_cast<uInt>(at_once);
         state = inflate(&stream, Z_NO_FLUSH);
         out.resize(out.size() - stream.avail_out);
         check_size(out.size(), most);
@@ -74,8 +78,8 @@ std::string filter_all(std::string_view text, std::uint64_t most) {
     std::string out;
     for (;;) {
         const auto before = out.size();
-        out.resize(before + at_once);
-        const auto got = archive_read_data(reader.get(), out.data() + before, at_once);
+        const auto room = add_room(out);
+        const auto got = archive_read_data(reader.get(), out.data() + before, room);
         if (got < 0) damaged();
         out.resize(before + static_cast<std::size_t>(got));
         check_size(out.size(), most);
