@@ -20,14 +20,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const auto v : body.faces) demand(v < body.skin.vertices());
         demand(body.rest().offsets.size() == 72 && body.skin.first.size() == body.skin.vertices() + 1);
     });
-    // Few inputs get past all that a model must have: its arrays on their own.
-    for (const auto read : {read_model_npz, read_model_pickle})
-        try_to([&] {
-            for (const auto& [name, array] : read(bytes, {"a", "b", "J_regressor", "shapedirs", "f"})) {
-                std::uint64_t meant = 1;
-                for (const auto n : array.shape) meant *= n;
-                demand(meant == array.values.size());
-            }
-        });
+    // Few inputs get past all that a model must have: its arrays on their own, by the reader that it would choose.
+    const auto read = bytes.starts_with("PK") ? read_model_npz : read_model_pickle;
+    try_to([&] {
+        for (const auto& [name, array] : read(bytes, {"a", "b", "J_regressor", "shapedirs", "f"})) {
+            std::uint64_t meant = 1;
+            for (const auto n : array.shape) meant *= n;
+            demand(meant == array.values.size());
+        }
+    });
     return 0;
 }
