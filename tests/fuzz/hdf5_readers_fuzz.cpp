@@ -1,9 +1,6 @@
 // libFuzzer: HDF5 files that are nearly a shard, motions, a recogniser's weights or features, given to the readers of these. Each array
 // and attribute is as it should be, another, elsewhere, or missing, and extents may be far beyond the file; the library makes it
 // (see motions_fuzz.cpp).
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstring>
 #include <string>
 
@@ -15,30 +12,13 @@
 #include "ingest/dataset/motions_file.hpp"
 #include "ingest/dataset/shard.hpp"
 #include "tests/fuzz/any_hdf5.hpp"
+#include "tests/fuzz/file_in_memory.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
 using namespace actformer;
 using namespace actformer::fuzzing;
 
 namespace {
-
-/// A file that lives in memory and has a path.
-class FileInMemory {
-  public:
-    FileInMemory() : file_(::memfd_create("fuzz", 0)), path_("/proc/self/fd/" + std::to_string(file_)) {}
-    ~FileInMemory() { ::close(file_); }
-    FileInMemory(const FileInMemory&) = delete;
-    FileInMemory& operator=(const FileInMemory&) = delete;
-    void write(const std::vector<char>& bytes) const {
-        demand(::ftruncate(file_, 0) == 0 &&
-               ::pwrite(file_, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()));
-    }
-    const std::string& path() const { return path_; }
-
-  private:
-    int file_;
-    std::string path_;
-};
 
 /// A number that stands nowhere else in such files.
 constexpr std::uint64_t long_extent = 251;
@@ -238,7 +218,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         make[kind](file.get(), choose);
         auto image = image_of(file);
         if (choose.below(4) == 1) lengthen(image, choose);
-        on_disk.write(image);
+        on_disk.write({image.data(), image.size()});
     }
     const auto& path = on_disk.path();
     if (kind == 0)
