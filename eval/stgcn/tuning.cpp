@@ -110,6 +110,7 @@ Tiles load_tiles(const kernels::DeviceInfo& device) {
 
 void save_tiles(const kernels::DeviceInfo& device, const Tiles& tiles) {
     auto json = read_file();
+    json["program"] = "actformer " ACTFORMER_VERSION;
     json[key_of(device)] = to_json(tiles);
     make_folders(tiles_file().parent_path());
     write_whole(tiles_file(), with_checksum(json).dump(2) + "\n");

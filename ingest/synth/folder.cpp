@@ -27,7 +27,8 @@ void claim_folder(const fs::path& folder, std::string_view made_by, std::uint64_
     nlohmann::ordered_json mine = {{"made_by", made_by}, {"version", ACTFORMER_VERSION}, {"seed", seed}};
     if (clips) mine["clips"] = *clips;
     const bool is_new = !fs::exists(file);
-    if (!is_new && loose::read(file) != mine)
+    const auto said = loose::read(file);
+    if (!is_new && (said.is_discarded() || said != mine))  // what is no JSON is unequal to nothing
         throw Error(
             "{}: the folder holds clips of another seed{} or version than seed {}{} of version {}; choose "
             "another with -o",

@@ -13,17 +13,23 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 JobStatus status_of(const fs::path& folder) {
+    const auto is_damaged = [](const Json& json) {
+        return !json.is_object() || own_checksum_of(json) == OwnChecksum::wrong;
+    };
     JobStatus out;
     if (fs::exists(folder / "done.json")) {
         out.state = JobState::done;
         const auto json = loose::read(folder / "done.json");
-        if (const auto& seconds = loose::member(json, "seconds"); seconds.is_number()) out.seconds = seconds;
+        const auto& seconds = loose::member(json, "seconds");
+        if (seconds.is_number() && !is_damaged(json)) out.seconds = seconds;
     } else if (FileLock::is_held(folder / "lock")) {  // by the process that works on the job
         out.state = JobState::running;
     } else if (fs::exists(folder / "failed.json")) {
         out.state = JobState::failed;
-        const auto why = loose::text(loose::read(folder / "failed.json"), "why");
-        out.why = why.empty() ? "?" : why;
+        const auto json = loose::read(folder / "failed.json");
+        out.why = is_damaged(json) ? fmt::format("{}: damaged", (folder / "failed.json").string())
+                                   : loose::text(json, "why");
+        if (out.why.empty()) out.why = "?";
     }
     return out;
 }

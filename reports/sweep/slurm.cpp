@@ -23,14 +23,22 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+/// Slurm's numbers of the jobs that were submitted. Those of a damaged file, taken for none, would have the jobs submitted twice.
 Json submitted_before(const fs::path& out) {
-    auto json = loose::read(out / "slurm.json");
-    if (own_checksum_of(json) == OwnChecksum::wrong)
+    const auto path = out / "slurm.json";
+    if (!fs::exists(path)) return Json::object();
+    auto json = loose::read(path);
+    if (!json.is_object() || own_checksum_of(json) == OwnChecksum::wrong)
         throw Error("{}: damaged; remove it once none of the sweep's jobs waits or runs in Slurm",
-                    (out / "slurm.json").string());
-    if (!json.is_object()) return Json::object();
+                    path.string());
     json.erase("checksum");
+    json.erase("program");
     return json;
+}
+
+void keep_submitted(Json numbers, const fs::path& out) {
+    numbers["program"] = "actformer " ACTFORMER_VERSION;
+    write_whole(out / "slurm.json", with_checksum(std::move(numbers)).dump(2) + "\n");
 }
 
 /// Its last words, which begin with its name where they are its own.
@@ -140,7 +148,7 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
         live[i] = submit(job, after, options, command(job), sbatch_words);
         fresh[i] = true;
         numbers[job.id] = live[i];
-        write_whole(options.out / "slurm.json", with_checksum(numbers).dump(2) + "\n");
+        keep_submitted(numbers, options.out);
         ++submitted;
     }
     return submitted;

@@ -1,12 +1,16 @@
 // A byte flipped in what the program wrote: the command that reads it tells, makes it anew, or makes the same of it.
 // ACTFORMER_FLIPS=200 flips that many bytes of each kind in place of a few.
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include "eval/recogniser.hpp"
+#include "eval/stgcn/tuning.hpp"
 #include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/motions_file.hpp"
+#include "kernels/device.hpp"
 #include "tests/support/flips.hpp"
 #include "tests/support/made_dataset.hpp"
+#include "tests/support/sweep.hpp"
 
 using namespace actformer;
 using namespace actformer::test;
@@ -50,6 +54,52 @@ void flip(const std::string& what, const std::string& file, const std::string& a
     flip_and_read(what, all.dir / file, flips_to_make(few), named,
                   [&] { return outcome_of(all.cache(), arguments, all.dir / output); });
 }
+
+/// A sweep that scores the motions, and its report.
+struct ScoredSweep {
+    std::string out = made().at("scored");
+    ScoredSweep() {
+        write_file(out + ".yaml", fmt::format("name: flips\n"
+                                              "datasets:\n"
+                                              "  one: {{path: {}}}\n"
+                                              "recognisers:\n"
+                                              "  one: {{weights: {}}}\n"
+                                              "base: {{data: one, recogniser: one, motions: [{}], split: "
+                                              "s/train, window: 20}}\n"
+                                              "rows:\n"
+                                              "  a: {{fills: [table3/full/NTU-1P]}}\n",
+                                              made().at("data"), made().at("w.h5"), made().at("m.h5")));
+        const auto swept = made().run("sweep " + out + ".yaml -o " + out);
+        EXPECT_EQ(swept.exit, 0) << swept.output;
+    }
+    fs::path scores() const {
+        for (const auto& entry : fs::recursive_directory_iterator(out))
+            if (entry.path().filename() == "scores.json") return entry.path();
+        return {};
+    }
+};
+
+const ScoredSweep& scored() {
+    static const ScoredSweep once;
+    return once;
+}
+
+void flip_and_report(const std::string& what, const fs::path& file) {
+    const auto page = made().dir / "report.html";
+    flip_and_read(what, file, flips_to_make(few), {file.filename().string()}, [&] {
+        return outcome_of(made().cache(), "report " + scored().out + " -o " + page.string(), page,
+                          file.filename().string());
+    });
+}
+
+/// Sweeps whose program is a stand-in that takes no time.
+struct SweepFlips : SweepFixture {
+    fs::path job_with(const std::string& file) const {
+        for (const auto& entry : fs::recursive_directory_iterator(dir / "out/jobs"))
+            if (entry.path().filename() == file) return entry.path().parent_path();
+        return {};
+    }
+};
 
 }  // namespace
 
@@ -98,6 +148,132 @@ TEST(Flips, InCachedFeatures) {
     EXPECT_NE(
         made().run(score).output.find(cached.string() + ": damaged, or of an earlier version; made anew"),
         std::string::npos);
+}
+
+TEST(Flips, InWhatAnInterruptedScoreLeft) {
+    const auto& all = made();
+    const auto to = all.at("k.json"), work = to + ".work", kept = all.at("kept");
+    const auto score = "score --recogniser " + all.at("w.h5") + " --real " + all.at("data") +
+                       " --window 20 --generated " + all.at("m.h5") + " -o " + to;
+    const auto score_with = [&](const std::string& how) {
+        return run_command(all.cache() + " LD_PRELOAD=" + failing_calls() + " FAIL_BELOW=" + to +
+                           ".partial " + how + " " + program() + " " + score);
+    };
+    ASSERT_EQ(score_with("FAIL_LIST=" + all.at("list")).exit, 0);
+    std::istringstream calls(read_file(all.dir / "list"));
+    std::size_t last_open = 0, number = 0;
+    for (std::string call; std::getline(calls, call);)
+        if (++number, call.starts_with("open")) last_open = number;
+    const auto interrupted = score_with(fmt::format("FAIL_AT={} FAIL_ON=1", last_open));
+    ASSERT_EQ(interrupted.exit, 1) << interrupted.output;
+    fs::rename(work, kept);
+    std::size_t measures = 0, features = 0;
+    for (const auto& entry : fs::directory_iterator(kept)) {
+        const auto file = entry.path();
+        const bool measured = file.extension() == ".measures";
+        ++(measured ? measures : features);
+        flip_and_read(measured ? "kept measures" : "kept features", file, flips_to_make(few),
+                      {file.filename()}, [&] {
+                          fs::remove_all(work);
+                          fs::copy(kept, work);
+                          return outcome_of(all.cache(), score, to);
+                      });
+    }
+    EXPECT_GE(measures, 1U);
+    EXPECT_EQ(features, 1U);
+}
+
+TEST(Flips, InScoresThatAreReported) {
+    flip_and_report("scores", scored().scores());
+}
+
+TEST(Flips, InFeaturesThatAreReported) {
+    flip_and_report("reported features", scored().scores().parent_path() / "features/real.h5");
+}
+
+TEST(Flips, InASweepsResults) {
+    flip_and_report("results.json", scored().out + "/results.json");
+}
+
+TEST(Flips, InTiles) {
+    const auto cache = made().at("tuned");
+    ::setenv("XDG_CACHE_HOME", cache.c_str(), 1);
+    const kernels::Device device("");
+    auto tiles = default_tiles(device.info());
+    tiles.rows = tiles.rows == 4 ? 5 : 4;
+    eval::save_tiles(device.info(), tiles);
+    const auto file = eval::tiles_file();
+    ::unsetenv("XDG_CACHE_HOME");
+    flip_and_read("tiles.json", file, flips_to_make(few), {"tiles.json"}, [&] {
+        return outcome_of("XDG_CACHE_HOME=" + cache,
+                          "features --recogniser " + made().at("w.h5") + " " + made().at("m.h5") + " -o " +
+                              made().at("g.h5"),
+                          made().dir / "g.h5");
+    });
+}
+
+TEST(Flips, InWhatIsToldOfRawData) {
+    const auto raw = made().at("raw"), out = made().at("ingested"), again = made().at("again");
+    const auto synth = "synth ntu -o " + raw + " --clips 3 --actions 1,2 --seed 1",
+               ingest = "ingest ntu " + raw + " -o ";
+    ASSERT_EQ(made().run(synth).exit, 0);
+    ASSERT_EQ(made().run(ingest + out).exit, 0);
+    flip_and_read("ingest.json", out + "/ingest.json", flips_to_make(few), {"ingest.json"},
+                  [&] { return outcome_of(made().run(ingest + out)); });
+    flip_and_read("synth.json", raw + "/synth.json", flips_to_make(few), {"synth.json"},
+                  [&] { return outcome_of(made().run(synth), raw + "/ORIGIN"); });
+    flip_and_read("ORIGIN", raw + "/ORIGIN", flips_to_make(few), {"ORIGIN"}, [&] {
+        fs::remove_all(again);
+        return outcome_of(made().run(ingest + again), again + "/ntu-1p/dataset.json");
+    });
+}
+
+TEST_F(SweepFlips, InTheMarkOfAJobThatIsDone) {
+    sweep_file(two_rows);
+    ASSERT_EQ(sweep().exit, 0);
+    const auto job = job_with("scores.json");
+    for (const auto* name : {"done.json", "scores.json"})
+        flip_and_read(std::string("a job's ") + name, job / name, flips_to_make(few), {name}, [&] {
+            const auto result = sweep();
+            auto outcome = outcome_of(result, job / "scores.json");
+            outcome.output += read_file(dir / "out/results.json");
+            outcome.anew = result.output.find("again:  ") != std::string::npos;
+            return outcome;
+        });
+}
+
+TEST_F(SweepFlips, InTheMarkOfAJobThatFailed) {
+    sweep_file(two_rows);
+    write_file(dir / "broken", "train generator");
+    ASSERT_EQ(sweep().exit, 1);
+    flip_and_read("failed.json", job_with("failed.json") / "failed.json", flips_to_make(few), {"failed.json"},
+                  [&] { return outcome_of(sweep("--status"), {}, "failed.json: damaged"); });
+}
+
+TEST_F(SweepFlips, InTheNumbersOfJobsInSlurm) {
+    sweep_file(two_rows);
+    write_file(dir / "bin/sbatch",
+               "#!/bin/sh\nhere=$(dirname \"$0\")\necho \"$@\" >> $here/calls\nwc -l < $here/calls\n");
+    write_file(dir / "bin/squeue", "#!/bin/sh\nseq 1 8 | sed 's/$/ PD None/'\n");
+    for (const auto* name : {"sbatch", "squeue"}) ::chmod((dir / "bin" / name).c_str(), 0755);
+    const auto with_slurm = [&](const std::string& option) {
+        return run_command("PATH=" + at("bin") + ":$PATH " + command(option));
+    };
+    ASSERT_EQ(with_slurm("--slurm").output.find("8 jobs submitted"), 0U);
+    flip_and_read("slurm.json", dir / "out/slurm.json", flips_to_make(few), {"slurm.json"}, [&] {
+        auto outcome = outcome_of(with_slurm("--status"));
+        const auto submitted = with_slurm("--slurm");
+        if (outcome.error.empty() || submitted.exit == 0)
+            outcome = {{}, false, outcome.output + submitted.output};
+        return outcome;
+    });
+    const auto text = read_file(dir / "out/slurm.json");
+    EXPECT_NE(text.find("\"program\": \"actformer "), std::string::npos) << text;
+    write_file(dir / "out/slurm.json", text.substr(0, text.find(",\n  \"checksum\"")) + "\n}\n");
+    expect_refused(with_slurm("--slurm"), {"slurm.json: damaged", "remove it once none"});
+    EXPECT_EQ(lines_in(read_file(dir / "bin/calls")), 8) << "nothing is submitted twice";
+    write_file(dir / "out/slurm.json", "{\"of an earlier version\": \"1\"}");
+    EXPECT_EQ(with_slurm("--status").exit, 0);
 }
 
 TEST(Flips, AreFoundInALabelByEveryCommandThatReadsTheShard) {

@@ -67,15 +67,31 @@ inline void flip_and_read(const std::string& what, const std::filesystem::path& 
                count.told, count.made_anew, count.without_effect, count.silent);
 }
 
-/// Runs the program with `arguments`, which make the file `output`. "made anew" or "made again" in what it says counts as such.
-inline FlipOutcome outcome_of(const std::string& environment, const std::string& arguments,
-                              const std::filesystem::path& output) {
-    std::filesystem::remove_all(output);
-    const auto result = run_command(environment + " " + program() + " " + arguments);
-    EXPECT_LT(result.exit, 2) << arguments << ": " << result.output;
+/// The first line of `text` with `word` in it, with its end; empty where there is none.
+inline std::string line_with(const std::string& text, const std::string& word) {
+    const auto at = text.find(word);
+    if (at == std::string::npos) return {};
+    const auto begin = text.rfind('\n', at) + 1;
+    return text.substr(begin, text.find('\n', at) + 1 - begin);
+}
+
+/// What came of a command that made `output`, a file or, where it is empty, what the command said. "made anew" or "made again" in that counts
+/// as such. A line with `notice` in it tells that something was left out.
+inline FlipOutcome outcome_of(const CommandResult& result, const std::filesystem::path& output = {},
+                              const std::string& notice = {}) {
+    EXPECT_LT(result.exit, 2) << result.output;
     if (result.exit != 0) return {result.output.empty() ? "no reason given" : result.output, false, {}};
+    if (const auto line = notice.empty() ? "" : line_with(result.output, notice); !line.empty())
+        return {line, false, {}};
     const bool anew = result.output.find("made a") != std::string::npos;
-    return {{}, anew, read_file(output)};
+    return {{}, anew, output.empty() ? result.output : read_file(output)};
+}
+
+/// Runs the program with `arguments`, which make the file `output`.
+inline FlipOutcome outcome_of(const std::string& environment, const std::string& arguments,
+                              const std::filesystem::path& output, const std::string& notice = {}) {
+    std::filesystem::remove_all(output);
+    return outcome_of(run_command(environment + " " + program() + " " + arguments), output, notice);
 }
 
 }  // namespace actformer::test

@@ -396,6 +396,24 @@ TEST_F(PipelineOnDevice, FlippedBytesInWhatAStopLeftAreNoticed) {
         });
 }
 
+TEST_F(PipelineOnDevice, FlippedBytesInTheListOfWhatWasBeingPutInPlaceAreNoticed) {
+    run_until_it_stops();
+    fs::rename(dir / "out.partial", dir / "kept");
+    const std::string shard = "shard-00000.h5";
+    write_file(dir / "kept/delivering", '\0' + shard);
+    flip_and_read("delivering", dir / "kept/delivering", flips_to_make(2), {shard}, [&]() -> FlipOutcome {
+        fs::remove_all(dir / "out");
+        fs::create_directory(dir / "out");
+        fs::copy(dir / "kept", dir / "out/.partial", fs::copy_options::recursive);
+        fs::rename(dir / "out/.partial/data" / shard, dir / "out" / shard);
+        LineFormat resumed;
+        const auto summary = run(resumed);
+        std::string all;
+        for (const auto& [name, sum] : contents(dir / "out")) all += name + " " + sum + "\n";
+        return {{}, !summary.made_again.empty(), all};
+    });
+}
+
 TEST_F(PipelineOnDevice, ADamagedRecordOfAFinishedIngestIsNamed) {
     write_file(dir / "raw/a.lines", "x 1 2\n");
     LineFormat format, again;
