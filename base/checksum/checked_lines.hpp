@@ -1,5 +1,6 @@
-// Logs: JSON objects, one a line, each with a checksum of its own (checked_json.hpp). Whoever reads one can tell which lines are as this
-// program wrote them; those of earlier versions and of others, which have no checksum, are taken as they are.
+// Logs: JSON objects, one a line, each with its number, `line`, from 1, and a checksum of its own (checked_json.hpp). Whoever reads one can
+// tell which lines are as this program wrote them, and which are not there; those of earlier versions and of others, which have no
+// checksum or number, are taken as they are.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +11,18 @@
 
 namespace actformer {
 
-/// The object and its checksum as a line, with its end.
-std::string checked_line(const nlohmann::ordered_json& object);
+/// The object, its number and its checksum as a line, with its end.
+std::string checked_line(nlohmann::ordered_json object, std::size_t number);
 
 struct CheckedLines {
     std::vector<nlohmann::ordered_json>
-        objects;  ///< of the lines that are whole, in their order, their checksums left in
-    std::vector<std::size_t> damaged;  ///< numbers of the others, from 1
+        objects;  ///< of the lines that are whole, in their order, their numbers and checksums left in
+    std::vector<std::size_t> damaged;  ///< where the others stand, from 1
+    std::vector<std::size_t> missing;  ///< before which whole lines some are not there
     bool cut_short =
         false;  ///< the last line has no end, and is no object: its writer was stopped, or is still at it
 
-    /// "FILE: line 3: damaged", or that its last line is cut short; empty where neither is.
+    /// "FILE: line 3: damaged", that lines are missing, or that the last one is cut short; empty where nothing is.
     std::string fault(const std::filesystem::path& file) const;
 };
 

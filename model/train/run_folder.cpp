@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "base/checksum/checked_lines.hpp"
+#include "base/checksum/checked_text.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/files/regular_file.hpp"
@@ -48,6 +49,7 @@ RunFolder::RunFolder(std::filesystem::path folder, bool tensorboard)
 
 void RunFolder::keep_to(const Config& config) const {
     if (std::filesystem::exists(this->config())) {
+        expect_checksum_comment(this->config());
         if (const auto model = model_named_in(this->config()); model != config.model())
             throw Error("{}: holds a training of {}, not of '{}'; choose another -o", folder_.string(),
                         in_quotes(model), config.model());
@@ -58,11 +60,11 @@ void RunFolder::keep_to(const Config& config) const {
             throw Error("{}: holds a training with other settings ({}); choose another -o", folder_.string(),
                         fmt::join(differences, ", "));
     }
-    write_whole(this->config(), config.yaml());
+    write_whole(this->config(), with_checksum_comment(config.yaml()));
 }
 
 void RunFolder::log(const nlohmann::ordered_json& line) {
-    unwritten_ += checked_line(line);
+    unwritten_ += checked_line(line, ++lines_);
     if (tensorboard_) unwritten_events_ += tensorboard_event(line, now());
     write_log();
 }
@@ -77,20 +79,27 @@ void RunFolder::sync_log() {
     if (std::filesystem::exists(log_file())) sync_file(log_file());
 }
 
-std::string RunFolder::rewind_log(std::uint64_t epochs) const {
+std::string RunFolder::rewind_log(std::uint64_t epochs) {
     const auto path = log_file();
     if (tensorboard_) open_regular(events(), O_RDONLY);  // refuses links and what is no file
     const bool there = open_regular(path, O_RDONLY).get() >= 0;
     const auto lines = read_checked_lines(path);
     std::string kept, curves = tensorboard_head(now());
+    std::uint64_t last = 0;
+    lines_ = 0;
     for (const auto& line : lines.objects) {
         if (!line.contains("epoch") || !line["epoch"].is_number_unsigned() || line["epoch"] > epochs)
             continue;
-        kept += line.dump() + "\n";
+        ++lines_;
+        kept += line.contains("line") ? checked_line(line, lines_) : line.dump() + "\n";
+        last = line["epoch"];
         if (tensorboard_) curves += tensorboard_event(line, now());
     }
     auto note = lines.fault(path);
-    if (!note.empty()) note += ", and left out";
+    if (!lines.damaged.empty() || lines.cut_short) note += ", and left out";
+    if (note.empty() && there && last < epochs)
+        note = fmt::format("{}: its last lines are missing: it ends at epoch {} of {}", path.string(), last,
+                           epochs);
     if (!lines.damaged.empty()) note += "; the log as it was is " + kept_as_damaged(path).string();
     if (there) write_whole(path, kept);
     if (tensorboard_) write_whole(events(), curves);

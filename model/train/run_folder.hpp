@@ -25,7 +25,7 @@ class RunFolder {
     /// Error naming what differs.
     void keep_to(const Config& config) const;
 
-    /// Adds a line, and a checksum of it, to log.jsonl, and its numbers to TensorBoard's file. Throws Error where it cannot be written;
+    /// Adds a line, its number and a checksum of it to log.jsonl, and its numbers to TensorBoard's file. Throws Error where it cannot be written;
     /// it is then kept, and written before the next one.
     void log(const nlohmann::ordered_json& line);
 
@@ -33,9 +33,9 @@ class RunFolder {
     void sync_log();
 
     /// Keeps of log.jsonl the lines of the first `epochs` epochs: those after them are trained, and logged, again. TensorBoard's file is
-    /// made of these lines anew. Returns a note of the lines that are damaged and therefore left out, empty where none is; the log as it was
-    /// is then log.jsonl.damaged. Throws Error where a link or no regular file is there.
-    std::string rewind_log(std::uint64_t epochs) const;
+    /// made of these lines anew. Returns a note of the lines that are damaged and therefore left out, or not there, empty where none is; the
+    /// log as it was is then log.jsonl.damaged. Throws Error where a link or no regular file is there.
+    std::string rewind_log(std::uint64_t epochs);
 
   private:
     void write_log();
@@ -44,6 +44,7 @@ class RunFolder {
 
     std::filesystem::path folder_;
     bool tensorboard_;
+    std::size_t lines_ = 0;                     ///< of log.jsonl, with those not written yet
     std::string unwritten_, unwritten_events_;  ///< lines of log.jsonl, and their events
     std::optional<FileLock> lock_;
 };

@@ -52,7 +52,8 @@ Curves read_curves(const std::filesystem::path& run) {
     if (run.empty() || !has_log(run)) return out;
     const auto file = run / "log.jsonl";
     const auto lines = read_checked_lines(file);
-    if (!lines.damaged.empty() || !FileLock::is_held(run / "lock")) out.fault = lines.fault(file);
+    const bool goes_on = FileLock::is_held(run / "lock");
+    if (!lines.damaged.empty() || !lines.missing.empty() || !goes_on) out.fault = lines.fault(file);
     for (const auto& said : lines.objects) {
         if (!said.contains("epoch") || !said["epoch"].is_number_unsigned()) continue;
         auto& epoch = epochs[said["epoch"]];

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/checksum/checked_text.hpp"
 #include "base/files/lock.hpp"
 #include "eval/recogniser_kind.hpp"
 #include "reports/page/curves.hpp"
@@ -30,9 +31,12 @@ void tell_whether_done(const fs::path& folder, MeasuredRow& row) {
 }  // namespace
 
 std::optional<MeasuredRow> training_row(const fs::path& folder) {
-    const auto model = in_configuration(folder / "config.yaml", "model", std::string());
+    const auto config = folder / "config.yaml";
     const bool goes_on = FileLock::is_held(folder / "lock");
-    if (model.empty() || !(has_log(folder) || goes_on)) return {};
+    if (!(has_log(folder) || goes_on)) return {};
+    if (std::error_code unread; fs::is_regular_file(config, unread)) expect_checksum_comment(config);
+    const auto model = in_configuration(config, "model", std::string());
+    if (model.empty()) return {};
     MeasuredRow row;
     const auto whole = fs::weakly_canonical(folder);
     row.name = whole.filename().string();

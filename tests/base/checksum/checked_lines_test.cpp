@@ -28,8 +28,13 @@ std::vector<std::map<std::string, double>> numbers_of(const CheckedLines& lines)
     return out;
 }
 
-const std::string two_lines = checked_line({{"epoch", 1}, {"loss", 0.125}, {"score", -1e-9}}) +
-                              checked_line({{"epoch", 2}, {"loss", 0.0625}, {"score", nullptr}});
+/// Two lines, the first with this number.
+std::string lines_from(std::size_t number) {
+    return checked_line({{"epoch", 1}, {"loss", 0.125}, {"score", -1e-9}}, number) +
+           checked_line({{"epoch", 2}, {"loss", 0.0625}, {"score", nullptr}}, number + 1);
+}
+
+const std::string two_lines = lines_from(1);
 
 }  // namespace
 
@@ -37,13 +42,13 @@ TEST(CheckedLines, AreReadBackAsTheyWereWritten) {
     const TempDir dir;
     EXPECT_TRUE(read_checked_lines(dir / "none").objects.empty());
     const std::string earlier = "{\"epoch\":0,\"loss\":0.5}\n";
-    write_file(dir / "log", earlier + two_lines);
+    write_file(dir / "log", earlier + lines_from(2));
     const auto lines = read_checked_lines(dir / "log");
     ASSERT_EQ(lines.objects.size(), 3U);
     EXPECT_EQ(lines.fault("log"), "");
     std::string again;
     for (const auto& object : lines.objects) again += object.dump() + "\n";
-    EXPECT_EQ(again, earlier + two_lines) << "one JSON object a line, the checksum its last member";
+    EXPECT_EQ(again, earlier + lines_from(2)) << "one JSON object a line, the checksum its last member";
 }
 
 TEST(CheckedLines, TellOfEveryByteThatChangesWhatTheySay) {
@@ -78,4 +83,21 @@ TEST(CheckedLines, SayWhichAreDamagedAndWhetherTheLastIsCutShort) {
     std::filesystem::create_directory(dir / "folder");
     EXPECT_NE(error_of([&] { read_checked_lines(dir / "folder"); }).find("folder: a folder, where"),
               std::string::npos);
+}
+
+TEST(CheckedLines, SayWhereOthersAreMissing) {
+    const TempDir dir;
+    std::vector<std::string> lines;
+    for (std::size_t i = 1; i <= 5; ++i) lines.push_back(checked_line({{"epoch", i}}, i));
+    const auto fault_of = [&](std::initializer_list<std::size_t> kept) {
+        std::string text;
+        for (const auto i : kept) text += lines[i - 1];
+        write_file(dir / "log", text);
+        return read_checked_lines(dir / "log").fault("log");
+    };
+    EXPECT_EQ(fault_of({1, 2, 3, 4, 5}), "");
+    EXPECT_EQ(fault_of({2, 3, 4, 5}), "log: lines are missing before line 1");
+    EXPECT_EQ(fault_of({1, 3, 5}), "log: lines are missing before lines 2, 3");
+    EXPECT_EQ(fault_of({1, 2, 2, 3}), "log: line 3: damaged");
+    EXPECT_EQ(fault_of({2, 1, 3}), "log: lines are missing before line 1; line 2: damaged");
 }

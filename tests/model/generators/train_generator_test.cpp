@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include <chrono>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
@@ -129,6 +130,19 @@ TEST_F(TrainGenerator, FlippedBytesInWeightsAndCheckpointsAreNoticed) {
         outcome.anew = fs::remove(checkpoint.string() + ".damaged");
         return outcome;
     });
+}
+
+TEST_F(TrainGenerator, FlippedBytesInLogsAndConfigurationsAreNoticed) {
+    ASSERT_EQ(train("run", "epochs=2").exit, 0);
+    const std::map<std::string, std::string> remarks{{"log.jsonl", "log.jsonl: "}, {"config.yaml", ""}};
+    for (const auto& [name, remark] : remarks) {
+        flip_and_read("reported " + name, dir / "run" / name, flips_to_make(2), {name, "results.json"}, [&] {
+            return outcome_of("", "report " + at("run") + " -o " + at("r.html"), dir / "r.html", remark);
+        });
+        flip_and_read("continued " + name, dir / "run" / name, flips_to_make(2), {name}, [&] {
+            return outcome_of("", line("run", "epochs=2"), dir / "run/weights-last.h5", remark);
+        });
+    }
 }
 
 // Containers with CUDA often have no OpenCL.

@@ -15,8 +15,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string line_of(int epoch) {
-    return actformer::checked_line({{"epoch", epoch}, {"step", 10 * epoch}, {"loss", 0.5 * epoch}});
+/// The line `number` of a log, by its epoch where there is nothing else in it.
+std::string line_of(int epoch, int number = 0) {
+    return actformer::checked_line({{"epoch", epoch}, {"step", 10 * epoch}, {"loss", 0.5 * epoch}},
+                                   static_cast<std::size_t>(number ? number : epoch));
 }
 
 struct RunLog : testing::Test {
@@ -60,13 +62,22 @@ TEST_F(RunLog, GoesBackToTheCheckpointAndTellsOfWhatIsNoWholeLine) {
     EXPECT_EQ(read_file(log), line_of(1));
     EXPECT_FALSE(fs::exists(log.string() + ".damaged"));
 
+    write_file(log, line_of(1) + line_of(3));
+    EXPECT_EQ(run.rewind_log(3), log.string() + ": lines are missing before line 2");
+    EXPECT_EQ(read_file(log), line_of(1) + line_of(3, 2)) << "numbered anew: said once";
+    EXPECT_EQ(run.rewind_log(3), "");
+    add(4);
+    EXPECT_EQ(read_file(log), line_of(1) + line_of(3, 2) + line_of(4, 3));
+    write_file(log, line_of(1));
+    EXPECT_EQ(run.rewind_log(3), log.string() + ": its last lines are missing: it ends at epoch 1 of 3");
+
     const std::string earlier = "{\"epoch\":1,\"loss\":0.5}\n";
-    auto damaged = earlier + whole;
+    auto damaged = earlier + line_of(1, 2) + line_of(2, 3) + line_of(3, 4);
     damaged[damaged.find("\"step\":20") + 7] = '3';
     write_file(log, damaged);
     EXPECT_EQ(run.rewind_log(3), log.string() + ": line 3: damaged, and left out; the log as it was is " +
                                      log.string() + ".damaged");
-    EXPECT_EQ(read_file(log), earlier + line_of(1) + line_of(3));
+    EXPECT_EQ(read_file(log), earlier + line_of(1, 2) + line_of(3, 3));
     EXPECT_EQ(read_file(log.string() + ".damaged"), damaged);
 }
 
@@ -82,7 +93,7 @@ TEST_F(RunLog, OpensNeitherLinksNorWhatIsNoRegularFile) {
     ASSERT_EQ(::mkfifo(log.c_str(), 0600), 0);
     EXPECT_NE(error_of([&] { run.rewind_log(0); }).find("run/log.jsonl: a FIFO, where"), std::string::npos);
 
-    const RunFolder with_curves(dir / "curves", true);
+    RunFolder with_curves(dir / "curves", true);
     fs::create_symlink("/dev/full", dir / "curves/events.out.tfevents.actformer");
     EXPECT_NE(error_of([&] { with_curves.rewind_log(0); }).find("actformer: a symbolic link, where"),
               std::string::npos);

@@ -141,7 +141,7 @@ TEST(Tensorboard, TheFileFollowsTheLogAlsoWhereItGoesBack) {
     EXPECT_EQ(events[2].scalars.at("loss"), 7);
     EXPECT_EQ(events[2].step, 20U);
     {
-        const RunFolder plain(dir / "plain");
+        RunFolder plain(dir / "plain");
         plain.rewind_log(0);
     }
     EXPECT_FALSE(std::filesystem::exists(dir / "plain/events.out.tfevents.actformer"));

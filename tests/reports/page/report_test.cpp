@@ -555,9 +555,9 @@ TEST(Projections, FarPointsAndSamplesThatAreAllTheSameStayFinite) {
 TEST(Curves, JoinLinesOfAnEpochAndTellOfBrokenOnes) {
     const Folder dir;
     const std::string whole = "{\"epoch\": 2, \"loss\": 1.5}\n" +
-                              checked_line({{"epoch", 2}, {"accuracy", 0.25}}),
+                              checked_line({{"epoch", 2}, {"accuracy", 0.25}}, 3),
                       first = "{\"epoch\": 1, \"loss\": 2.5, \"rate\": 0.1}\n";
-    auto changed = checked_line({{"epoch", 4}, {"loss", 7.5}});
+    auto changed = checked_line({{"epoch", 4}, {"loss", 7.5}}, 5);
     changed[changed.find("7.5")] = '8';
     write(dir / "run" / "log.jsonl", first + "not json\n" + whole + changed + "{\"epoch\": 3, \"lo");
     const auto expected = Json::parse(R"([{"epoch": 1, "loss": 2.5, "rate": 0.1},
