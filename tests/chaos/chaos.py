@@ -5,7 +5,7 @@ Every command runs once undisturbed; what it makes then is what it must make aft
   kills     SIGKILL, SIGTERM or SIGINT at a random moment, several times, then the same command to its end
   disks     a file system with too little room; then the same command with enough of it (as root)
   doubles   the same command twice at once
-  flips     one byte of what a command reads is changed: it is told, or has no effect
+  flips     one byte of what a command reads is changed: it is told, the file is made anew, or nothing comes of it
 
 Exit code 0 where nothing was wrong. Python's standard library only.
 """
@@ -73,40 +73,46 @@ class Command:
     words: str
     out: str
     apart: tuple = ()  # names of files that hold times
-    reads: tuple = ()  # below {base}, for flips
+    reads: tuple = ()  # patterns of files below {base}, of its own below {out}, or in the user's cache, for flips
     left: tuple = ()  # endings of what an unfinished run may leave beside `out`, for the next one
+    in_background: bool = False  # its work goes on behind it, as jobs of Slurm's
 
 
-TIMED = ("log.jsonl", "lock", "ingest.json", "results.json", "done.json", "job.json", "log.txt", "config.yaml")
+TIMED = ("log.jsonl", "lock", "ingest.json", "results.json", "done.json", "job.json", "log.txt", "config.yaml", "slurm.json", "slurm.log",
+         "slurm.txt")
+DATASET = ("{base}/data/ntu-1p/dataset.json", "{base}/data/ntu-1p/shard-*.h5")
+TRAINING = ("{out}/config.yaml", "{out}/log.jsonl", "{out}/checkpoint-*.h5", "{out}/weights-last.h5")
+OF_RECOGNISER, OF_GENERATOR, MOTIONS = ("{base}/recogniser/weights-last.h5",), ("{base}/generator/weights-last.h5",), ("{base}/motions.h5",)
+SWEPT = tuple("/jobs/*/" + name for name in ("scores.json", "run/config.yaml", "run/log.jsonl", "*.h5", "features/*.h5"))
 
 COMMANDS = {
-    "ingest ntu": Command("ingest ntu {base}/raw -o {out}", "data", TIMED, ("raw",), (".partial",)),
-    "ingest bvh": Command("ingest bvh {base}/bvh -o {out} --name {{take}}A{{action}}", "frombvh", TIMED, ("bvh",), (".partial",)),
-    "ingest motions": Command("ingest motions {base}/clips.npz -o {out}", "frommotions", TIMED, (), (".partial",)),
-    "export h5": Command("export {base}/data/ntu-1p -o {out}", "clips.h5", (), ("data/ntu-1p",)),
-    "export npz": Command("export {base}/data/ntu-1p -o {out}", "clips.npz", (), ("data/ntu-1p",)),
+    "ingest ntu": Command("ingest ntu {base}/raw -o {out}", "data", TIMED, ("{out}/ingest.json", "{base}/raw/ORIGIN"), (".partial",)),
+    "ingest bvh": Command("ingest bvh {base}/bvh -o {out} --name {{take}}A{{action}}", "frombvh", TIMED, ("{out}/ingest.json",),
+                          (".partial",)),
+    "ingest motions": Command("ingest motions {base}/clips.npz -o {out}", "frommotions", TIMED, ("{out}/ingest.json",), (".partial",)),
+    "export h5": Command("export {base}/data/ntu-1p -o {out}", "clips.h5", (), DATASET),
+    "export npz": Command("export {base}/data/ntu-1p -o {out}", "clips.npz", (), DATASET),
     "train recogniser": Command(
-        "train recogniser -c {base}/recogniser.yaml --data {base}/data/ntu-1p -o {out}", "recogniser", TIMED),
+        "train recogniser -c {base}/recogniser.yaml --data {base}/data/ntu-1p -o {out}", "recogniser", TIMED, DATASET + TRAINING),
     "train generator": Command(
-        "train generator -c {base}/generator.yaml --data {base}/data/ntu-1p -o {out}", "generator", TIMED),
+        "train generator -c {base}/generator.yaml --data {base}/data/ntu-1p -o {out}", "generator", TIMED, DATASET + TRAINING),
     "features": Command(
         "features --recogniser {base}/recogniser {base}/data/ntu-1p --split xsub/train --window 16 -o {out}",
-        "features.h5", (), ("data/ntu-1p", "recogniser/weights-last.h5")),
-    "generate": Command("generate --generator {base}/generator -o {out} --per-class 6 --threads 1", "motions.h5", (),
-                        ("generator/weights-last.h5",)),
+        "features.h5", (), DATASET + OF_RECOGNISER),
+    "generate": Command("generate --generator {base}/generator -o {out} --per-class 6 --threads 1", "motions.h5", (), OF_GENERATOR),
     "score": Command(
         "score --recogniser {base}/recogniser --real {base}/data/ntu-1p --split xsub/train --window 16 "
-        "--generated {base}/motions.h5 -o {out}", "scores.json", (), ("motions.h5",), (".work",)),
-    "report": Command("report {base}/sweep -o {out}", "report.html", (), ()),
-    "render": Command("render {base}/motions.h5 --count 2 --size 60 -o {out}", "motions.gif", (), ("motions.h5",)),
-    "sweep": Command("sweep {base}/sweep.yaml -o {out} --jobs 2", "sweep", TIMED),
+        "--generated {base}/motions.h5 -o {out}", "scores.json", (),
+        DATASET + OF_RECOGNISER + MOTIONS + ("{cache}/actformer/features/*.h5",), (".work",)),
+    "report": Command("report {base}/sweep -o {out}", "report.html", (),
+                      ("{base}/sweep/results.json",) + tuple("{base}/sweep" + name for name in SWEPT)),
+    "render": Command("render {base}/motions.h5 --count 2 --size 60 -o {out}", "motions.gif", (), MOTIONS),
+    "sweep": Command("sweep {base}/sweep.yaml -o {out} --jobs 2", "sweep", TIMED,
+                     ("{out}/results.json", "{out}/jobs/*/done.json", "{out}/jobs/*/job.json") + tuple("{out}" + name for name in SWEPT)),
+    "sweep --slurm": Command("sweep {base}/sweep.yaml -o {out} --slurm", "slurm", TIMED, ("{out}/slurm.json", "{out}/jobs/*/done.json"),
+                             (), True),
 }
-READERS = {  # what tells of a flip in which artefact, beside the commands that read it
-    "data/ntu-1p": ("export h5", "features"),
-    "motions.h5": ("score",),
-    "generator/weights-last.h5": ("generate",),
-    "recogniser/weights-last.h5": ("features",),
-}
+TELLS = ("damaged", "changed since", "missing", "notice: ")  # words of those who leave something out or make it anew
 
 
 class Failure(Exception):
@@ -149,8 +155,15 @@ class Chaos:
         self.table = collections.defaultdict(collections.Counter)
         self.seconds = {}  # within which a kill is likely to land
         self.failures = []
-        self.environment = dict(os.environ, XDG_CACHE_HOME=str(self.home / "cache"), TMPDIR=str(self.home / "tmp"))
-        (self.home / "tmp").mkdir()
+        self.kinds = collections.Counter()  # of files that were flipped
+        self.slurm = self.home / "slurm"
+        bin = self.home / "bin"
+        self.environment = dict(os.environ, XDG_CACHE_HOME=str(self.home / "cache"), TMPDIR=str(self.home / "tmp"),
+                                CHAOS_SLURM=str(self.slurm), PATH=f"{bin}:{os.environ['PATH']}")
+        for folder in (self.home / "tmp", self.slurm, bin):
+            folder.mkdir()
+        for name in ("sbatch", "squeue"):
+            (bin / name).symlink_to(pathlib.Path(__file__).resolve().parent / "slurm.py")
 
     def start(self, words, base=None, out=None, log=None):
         line = [self.program, *[w.format(base=base or self.base, out=out) for w in words.split()]]
@@ -169,6 +182,36 @@ class Chaos:
         if code != 0:
             raise Failure(f"exit code {code}: {words}: {said.strip()[-300:]}")
 
+    def jobs_in_slurm(self):
+        return [p for p in self.slurm.iterdir() if p.name.isdigit() and not (self.slurm / f"{p.name}.ended").exists()]
+
+    def wait_for_slurm(self):
+        end = time.monotonic() + 600
+        while self.jobs_in_slurm():
+            if time.monotonic() > end:
+                raise Failure("jobs in Slurm do not end")
+            time.sleep(0.05)
+
+    def kill_in_slurm(self):
+        """One of the jobs that run, and all its processes."""
+        running = [p.read_text() for p in self.jobs_in_slurm()]
+        if any(running):
+            try:
+                os.killpg(int(self.random.choice([r for r in running if r])), signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+
+    def must_do(self, name, base=None, out=None):
+        """The command, and what it has others do; jobs behind those that were killed are dropped, and submitted again. Its own seconds."""
+        command = COMMANDS[name]
+        seconds = []
+        for _ in range(3 if command.in_background else 1):
+            start = time.monotonic()
+            self.must_run(command.words, base, out)
+            seconds.append(time.monotonic() - start)
+            self.wait_for_slurm()
+        return seconds[0]
+
     def prepare(self):
         """Every command undisturbed."""
         self.base.mkdir()
@@ -180,14 +223,12 @@ class Chaos:
 
         def make(name):
             command = COMMANDS[name]
-            start = time.monotonic()
-            self.must_run(command.words, out=self.base / command.out)
-            self.seconds[name] = time.monotonic() - start
+            self.seconds[name] = self.must_do(name, out=self.base / command.out)
             made.add(name)
 
         make("ingest ntu")
         self.must_run("export {base}/data/ntu-1p -o {out} --format bvh", out=self.base / "bvh")
-        for name in ("export npz", "export h5", "train recogniser", "train generator", "generate", "sweep"):
+        for name in ("export npz", "export h5", "train recogniser", "train generator", "generate", "sweep", "sweep --slurm"):
             make(name)
         for name in COMMANDS:
             if name not in made:
@@ -213,7 +254,7 @@ class Chaos:
 
     def finish(self, name, folder):
         out = folder / COMMANDS[name].out
-        self.must_run(COMMANDS[name].words, out=out)
+        self.must_do(name, out=out)
         self.compare(name, out)
         return out
 
@@ -230,6 +271,9 @@ class Chaos:
                 pass
             how = self.random.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
             process.send_signal(how)
+            if COMMANDS[name].in_background:
+                time.sleep(self.random.uniform(0, 3))
+                self.kill_in_slurm()
             code = process.wait()
             if code == 0:
                 self.table[name]["too late"] += 1
@@ -242,7 +286,7 @@ class Chaos:
             self.table[name]["kills"] += 1
             self.seconds[name] *= 1.05
             self.table[name][how.name] += 1
-            if gentle and name != "sweep":
+            if gentle and not name.startswith("sweep"):
                 self.nothing_left(name, folder, False)
         self.finish(name, folder)
         shutil.rmtree(folder)
@@ -257,9 +301,11 @@ class Chaos:
         try:
             out = folder / COMMANDS[name].out
             code, said = self.run(COMMANDS[name].words, out=out)
+            self.wait_for_slurm()
             self.table[name]["disks"] += 1
             if code == 0:
-                self.compare(name, out)
+                if not COMMANDS[name].in_background:
+                    self.compare(name, out)
             elif code != 1 or not said.strip():
                 raise Failure(f"{name}: exit code {code} on a disk of {room} kB: {said.strip()[-300:]}")
             subprocess.run(["mount", "-o", "remount,size=512m", str(folder)], check=True)
@@ -283,35 +329,42 @@ class Chaos:
         if 0 not in codes or not set(codes) <= {0, 1}:
             raise Failure(f"{name}: twice at once ended with {codes}: " +
                           " | ".join(log.read_text(errors="replace").strip()[-200:] for log in logs))
+        self.wait_for_slurm()
         self.compare(name, out)
         shutil.rmtree(folder)
 
     def flips(self, name):
-        reads = [r for r in COMMANDS[name].reads if r in READERS]
-        if not reads:
-            return
+        command = COMMANDS[name]
         folder = self.place()
-        base = folder / "base"
-        shutil.copytree(self.base, base, ignore=shutil.ignore_patterns("raw", "bvh", "sweep", "frombvh", "frommotions"))
-        target = base / self.random.choice(reads)
-        if target.is_dir():
-            target = self.random.choice(sorted(p for p in target.rglob("*") if p.is_file() and p.name != "lock"))
-        data = bytearray(target.read_bytes())
+        out = folder / command.out
+        pattern = self.random.choice(command.reads)
+        root, below = pattern.split("/", 1)
+        if root == "{out}":  # it has run before
+            shutil.copytree(self.base / command.out, out)
+        found = sorted({"{base}": self.base, "{out}": out, "{cache}": self.home / "cache"}[root].glob(below))
+        if not found:
+            raise Failure(f"{name}: there is no {pattern}")
+        target = self.random.choice(found)
+        whole = target.read_bytes()
+        data = bytearray(whole)
         at = self.random.randrange(len(data))
         data[at] ^= 1 << self.random.randrange(8)
         target.write_bytes(data)
-        out = folder / COMMANDS[name].out
-        code, said = self.run(COMMANDS[name].words, base, out)
+        where = f"byte {at} of {target.relative_to(folder if folder in target.parents else self.home)}"
+        code, said = self.run(command.words, out=out)
+        self.wait_for_slurm()
+        if root != "{out}":
+            target.write_bytes(whole)
         self.table[name]["flips"] += 1
-        if code == 0:
-            wrong = differences(self.base / COMMANDS[name].out, out, COMMANDS[name].apart)
-            if wrong:
-                raise Failure(f"{name}: nothing said of byte {at} of {target.relative_to(base)}, and other results")
-            self.table[name]["no effect"] += 1
-        elif code == 1 and said.strip():
-            self.table[name]["told"] += 1
-        else:
-            raise Failure(f"{name}: exit code {code} for byte {at} of {target.relative_to(base)}: {said.strip()[-200:]}")
+        self.kinds[pattern] += 1
+        told = any(word in said for word in TELLS)
+        wrong = differences(self.base / command.out, out, command.apart) if code == 0 else []
+        wrong = [name for name in wrong if not name.endswith(".damaged")]  # what was set aside, and said so
+        if wrong and "notice: " not in said:
+            raise Failure(f"{name}: nothing said of {where}, and other results in {', '.join(wrong[:5])}")
+        if code not in (0, 1) or code == 1 and not said.strip():
+            raise Failure(f"{name}: exit code {code} for {where}: {said.strip()[-200:]}")
+        self.table[name]["told" if code or wrong else "made anew" if told else "no effect"] += 1
         shutil.rmtree(folder)
 
     def disturb(self):
@@ -329,13 +382,15 @@ class Chaos:
             print(f"WRONG {self.failures[-1]}", flush=True)
 
     def print_table(self):
-        columns = ["kills", "SIGKILL", "SIGTERM", "SIGINT", "too late", "disks", "doubles", "flips", "told", "no effect"]
+        columns = ["kills", "SIGKILL", "SIGTERM", "SIGINT", "too late", "disks", "doubles", "flips", "told", "made anew", "no effect"]
         print(f"{'':<18}" + "".join(f"{c:>10}" for c in columns))
         sums = collections.Counter()
         for name in self.only:
             sums.update(self.table[name])
             print(f"{name:<18}" + "".join(f"{self.table[name][c]:>10}" for c in columns))
         print(f"{'all':<18}" + "".join(f"{sums[c]:>10}" for c in columns))
+        if self.kinds:
+            print("flips in " + ", ".join(f"{kind} {count}" for kind, count in sorted(self.kinds.items())))
 
     def kill_each(self, count):
         """Until so many kills have landed in each command."""
@@ -359,6 +414,7 @@ class Chaos:
         print(f"{len(self.failures)} wrong; {len(temporary)} temporary folders of killed commands wait for the next one")
         for failure in self.failures:
             print(f"  {failure}")
+        self.wait_for_slurm()
         shutil.rmtree(self.home)
         return 1 if self.failures else 0
 
