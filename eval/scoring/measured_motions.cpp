@@ -37,16 +37,21 @@ void find_up(const ingest::Dataset& dataset, const ingest::BodyModel& body, Meas
 
 }  // namespace
 
-std::optional<MeasurementSetup> measurement_setup(const ingest::Dataset& dataset) try {
+std::optional<MeasurementSetup> measurement_setup(const ingest::Dataset& dataset) {
+    if (dataset.clips().empty()) return {};
     const auto subjects = ingest::subjects_of(dataset);
+    const auto first = dataset.motion(0);  // what cannot be read is no motion without positions
+    try {
+        static_cast<void>(ingest::joint_positions(first, subjects));
+    } catch (const Error&) {
+        return {};
+    }
     MeasurementSetup setup{subjects, {}, subjects.persons};
     setup.measured.parents = subjects.topology.parents;
     setup.measured.feet = feet_among(subjects.topology.names);
     setup.measured.fps = subjects.fps;
     find_up(dataset, subjects, setup.measured);
     return setup;
-} catch (const Error&) {
-    return {};  // its motions have no joint positions
 }
 
 bool fits(const MeasurementSetup& setup, const MotionsInfo& motions) {

@@ -21,7 +21,7 @@ struct MeasurementSetup {
 };
 
 /// The axis along which bodies stand is that of 50 to 99 clips, or of all where there are fewer. None where joint positions cannot be had, as of rotations without
-/// a rest skeleton.
+/// a rest skeleton. Throws Error where a clip is damaged.
 std::optional<MeasurementSetup> measurement_setup(const ingest::Dataset& dataset);
 
 /// Whether motions have the nodes and persons that the setup measures.

@@ -113,6 +113,13 @@ TEST(Flips, InAShard) {
          {"shard-00000.h5"});
 }
 
+TEST(Flips, InAShardWhoseFeaturesAreKept) {
+    const auto score = "score --recogniser " + made().at("w.h5") + " --real " + made().at("data") +
+                       " --window 20 --generated " + made().at("m.h5") + " -o " + made().at("s.json");
+    ASSERT_EQ(made().run(score).exit, 0);
+    flip("scored shard", "data/shard-00000.h5", score, "s.json", {"shard-00000.h5"});
+}
+
 TEST(Flips, InMotions) {
     flip("motions", "m.h5",
          "features --recogniser " + made().at("w.h5") + " " + made().at("m.h5") + " -o " + made().at("g.h5"),
