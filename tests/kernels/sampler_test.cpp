@@ -55,7 +55,7 @@ double chi_square(const std::vector<double>& seen, const std::vector<double>& we
     return sum;
 }
 
-std::vector<float> copy(std::span<float> values) {
+std::vector<float> copy(std::span<const float> values) {
     return {values.begin(), values.end()};
 }
 
