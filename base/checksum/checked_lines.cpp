@@ -70,12 +70,15 @@ CheckedLines read_checked_lines(const std::filesystem::path& path) {
         const bool whole = object.is_object() && own_checksum_of(object) != OwnChecksum::wrong;
         const auto said = whole ? numbering.of(object, place) : Numbering::Says::next;
         if (said == Numbering::Says::later) out.missing.push_back(place);
-        if (whole && said != Numbering::Says::earlier)
+        if (whole && said != Numbering::Says::earlier) {
+            object.erase(number_key);
+            object.erase("checksum");
             out.objects.push_back(std::move(object));
-        else if (whole || ends)
+        } else if (whole || ends) {
             out.damaged.push_back(place);
-        else
+        } else {
             out.cut_short = true;
+        }
         text.remove_prefix(size + (ends ? 1 : 0));
     }
     return out;

@@ -16,7 +16,7 @@ std::string checked_line(nlohmann::ordered_json object, std::size_t number);
 
 struct CheckedLines {
     std::vector<nlohmann::ordered_json>
-        objects;  ///< of the lines that are whole, in their order, their numbers and checksums left in
+        objects;  ///< of the lines that are whole, in their order, without their numbers and checksums
     std::vector<std::size_t> damaged;  ///< where the others stand, from 1
     std::vector<std::size_t> missing;  ///< before which whole lines some are not there
     bool cut_short =

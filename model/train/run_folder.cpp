@@ -90,8 +90,7 @@ std::string RunFolder::rewind_log(std::uint64_t epochs) {
     for (const auto& line : lines.objects) {
         if (!line.contains("epoch") || !line["epoch"].is_number_unsigned() || line["epoch"] > epochs)
             continue;
-        ++lines_;
-        kept += line.contains("line") ? checked_line(line, lines_) : line.dump() + "\n";
+        kept += checked_line(line, ++lines_);
         last = line["epoch"];
         if (tensorboard_) curves += tensorboard_event(line, now());
     }

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 /// A line of a log is read back as it was written.
 void check_line(const Json& object) {
-    const auto line = checked_line(object);
+    const auto line = checked_line(object, 1);
     demand(line.find('\n') == line.size() - 1);
     demand(own_checksum_of(json_or_discarded<Json>(line)) == OwnChecksum::right);
 }

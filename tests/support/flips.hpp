@@ -80,7 +80,10 @@ inline std::string line_with(const std::string& text, const std::string& word) {
 inline FlipOutcome outcome_of(const CommandResult& result, const std::filesystem::path& output = {},
                               const std::string& notice = {}) {
     EXPECT_LT(result.exit, 2) << result.output;
-    if (result.exit != 0) return {result.output.empty() ? "no reason given" : result.output, false, {}};
+    if (result.exit != 0) {
+        const auto at = result.output.rfind("actformer: ");  // behind what it said while it still went on
+        return {at == std::string::npos ? "no reason given" : result.output.substr(at), false, {}};
+    }
     if (const auto line = notice.empty() ? "" : line_with(result.output, notice); !line.empty())
         return {line, false, {}};
     const bool anew = result.output.find("made a") != std::string::npos;

@@ -46,9 +46,11 @@ TEST(CheckedLines, AreReadBackAsTheyWereWritten) {
     const auto lines = read_checked_lines(dir / "log");
     ASSERT_EQ(lines.objects.size(), 3U);
     EXPECT_EQ(lines.fault("log"), "");
-    std::string again;
-    for (const auto& object : lines.objects) again += object.dump() + "\n";
-    EXPECT_EQ(again, earlier + lines_from(2)) << "one JSON object a line, the checksum its last member";
+    EXPECT_EQ(lines.objects[0].dump() + "\n", earlier);
+    EXPECT_EQ(checked_line(lines.objects[1], 2) + checked_line(lines.objects[2], 3), lines_from(2));
+    const auto line = checked_line({{"epoch", 1}}, 7);
+    EXPECT_TRUE(line.starts_with("{\"epoch\":1,\"line\":7,\"checksum\":\"")) << line;
+    EXPECT_TRUE(line.ends_with("\"}\n")) << line;
 }
 
 TEST(CheckedLines, TellOfEveryByteThatChangesWhatTheySay) {

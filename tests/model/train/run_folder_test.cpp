@@ -77,7 +77,8 @@ TEST_F(RunLog, GoesBackToTheCheckpointAndTellsOfWhatIsNoWholeLine) {
     write_file(log, damaged);
     EXPECT_EQ(run.rewind_log(3), log.string() + ": line 3: damaged, and left out; the log as it was is " +
                                      log.string() + ".damaged");
-    EXPECT_EQ(read_file(log), earlier + line_of(1, 2) + line_of(3, 3));
+    EXPECT_EQ(read_file(log),
+              actformer::checked_line({{"epoch", 1}, {"loss", 0.5}}, 1) + line_of(1, 2) + line_of(3, 3));
     EXPECT_EQ(read_file(log.string() + ".damaged"), damaged);
 }
 
