@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/process/brief_waits.hpp"
 #include "base/process/peer.hpp"
 #include "base/process/process.hpp"
 #include "base/process/signal_mask.hpp"
@@ -41,19 +42,9 @@ std::filesystem::path path_of(const Subprogram& sub) {
                                            : folder.parent_path() / "libexec/actformer" / sub.program;
 }
 
-/// Threads that wait for work keep a processor busy, and on a machine with other work starve it and one another: training runs two to
-/// four times slower. OpenMP's spin for some ten microseconds, which is what most waits of a training step take, and then sleep;
-/// OpenBLAS's sleep at once (2^4 cycles) in place of yielding for tens of milliseconds. The libraries read how to wait when they are
-/// loaded. Whoever sets these variables is left alone.
-void wait_briefly() {
-    if (!std::getenv("OMP_WAIT_POLICY")) ::setenv("GOMP_SPINCOUNT", "400", 0);
-    ::setenv("OMP_WAIT_POLICY", "passive", 0);
-    ::setenv("OPENBLAS_THREAD_TIMEOUT", "4", 0);
-}
-
 /// Becomes the program that a command lives in; comes back only where it cannot.
 int become(const Subprogram& sub, char** argv) {
-    wait_briefly();
+    actformer::wait_briefly();
     actformer::block_signals();
     ::execv(path_of(sub).c_str(), argv);
     const bool draws = std::string_view(sub.program) == "actformer-render";

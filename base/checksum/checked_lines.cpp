@@ -53,7 +53,7 @@ std::string CheckedLines::fault(const std::filesystem::path& file) const {
     std::vector<std::string> faults;
     if (!missing.empty()) faults.push_back("lines are missing before " + lines_at(missing));
     if (!damaged.empty()) faults.push_back(lines_at(damaged) + ": damaged");
-    if (faults.empty() && cut_short) faults.emplace_back("its last line is cut short");
+    if (damaged.empty() && cut_short) faults.emplace_back("its last line is cut short");
     return faults.empty() ? "" : fmt::format("{}: {}", file.string(), fmt::join(faults, "; "));
 }
 

@@ -18,7 +18,7 @@ struct CheckedLines {
     std::vector<nlohmann::ordered_json>
         objects;  ///< of the lines that are whole, in their order, without their numbers and checksums
     std::vector<std::size_t> damaged;  ///< where the others stand, from 1
-    std::vector<std::size_t> missing;  ///< before which whole lines some are not there
+    std::vector<std::size_t> missing;  ///< where lines stand before which others are missing
     bool cut_short =
         false;  ///< the last line has no end, and is no object: its writer was stopped, or is still at it
 

@@ -91,14 +91,16 @@ std::string RunFolder::rewind_log(std::uint64_t epochs) {
         if (!line.contains("epoch") || !line["epoch"].is_number_unsigned() || line["epoch"] > epochs)
             continue;
         kept += checked_line(line, ++lines_);
-        last = line["epoch"];
+        last =
+            std::max(last, line["epoch"].get<std::uint64_t>());  // scores come behind lines of later epochs
         if (tensorboard_) curves += tensorboard_event(line, now());
     }
     auto note = lines.fault(path);
     if (!lines.damaged.empty() || lines.cut_short) note += ", and left out";
-    if (note.empty() && there && last < epochs)
-        note = fmt::format("{}: its last lines are missing: it ends at epoch {} of {}", path.string(), last,
-                           epochs);
+    if (note.empty() && last < epochs)
+        note = there ? fmt::format("{}: its last lines are missing: it ends at epoch {} of {}", path.string(),
+                                   last, epochs)
+                     : fmt::format("{}: not there; curves begin at epoch {}", path.string(), epochs + 1);
     if (!lines.damaged.empty()) note += "; the log as it was is " + kept_as_damaged(path).string();
     if (there) write_whole(path, kept);
     if (tensorboard_) write_whole(events(), curves);

@@ -1,5 +1,5 @@
 // libFuzzer: any bytes as an HDF5 file, of which the attribute "names" of the object at the address in the first two bytes is read past
-// the library, and the texts of variable length that it leads to. No byte beyond the file is asked for, and texts are no larger than it.
+// the library, and the texts of variable length that it leads to. Bytes beyond the file are not there, and texts are no larger than it.
 #include <algorithm>
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as the pickle of HumanAct12. Whatever they hold, clips or rejections of one line come of them, and clips hold as many numbers as
-// they say.
+// libFuzzer: any bytes as the pickle of HumanAct12.
+// Whatever they hold, clips or rejections of one line come of them, and clips hold as many numbers as they say.
 #include <cstdint>
 #include <memory>
 

@@ -23,7 +23,14 @@ using Json = nlohmann::ordered_json;
 void check_line(const Json& object) {
     const auto line = checked_line(object, 1);
     demand(line.find('\n') == line.size() - 1);
-    demand(own_checksum_of(json_or_discarded<Json>(line)) == OwnChecksum::right);
+    auto read = json_or_discarded<Json>(line);
+    demand(own_checksum_of(read) == OwnChecksum::right);
+    auto written = object;
+    for (const auto* own : {"line", "checksum"}) {
+        read.erase(own);
+        written.erase(own);
+    }
+    demand(read == written);
 }
 
 void check_dataset(const std::string& path) {
@@ -43,7 +50,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto& path = file.path();
     try_to([&] { check_dataset(path); });
     try_to([&] {
-        for (const auto& object : read_checked_lines(path).objects) check_line(object);
+        const auto lines = read_checked_lines(path);
+        for (const auto& object : lines.objects) check_line(object);
+        if (const auto fault = lines.fault("log"); !fault.empty()) demand_one_line(fault);
     });
     try_to([&] {
         const auto json = loose::read(path);

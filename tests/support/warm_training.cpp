@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/process/brief_waits.hpp"
 #include "tests/support/paths.hpp"
 
 namespace actformer::test {
@@ -45,14 +46,16 @@ class Server {
             ::close(ends[1]);
             return;
         }
+        wait_briefly();  // as the program says to actformer-train
         ::dup2(ends[1], 3);
+        ::fcntl(3, F_SETFD, 0);  // where it was 3 already
         ::execl(warm_training().c_str(), warm_training().c_str(), nullptr);
         ::_exit(127);
     }
     ~Server() {
         if (socket_ < 0) return;
         ::close(socket_);
-        ::waitpid(pid_, nullptr, 0);
+        if (pid_ > 0) ::waitpid(pid_, nullptr, 0);
     }
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;

@@ -27,6 +27,11 @@ TEST(CheckedText, TellsOfEveryByteThatIsNotAsItWasWritten) {
     EXPECT_EQ(fault_of(with_checksum_comment("")), "");
     const auto why = fault_of(replaced(whole, "epochs: 5", "epochs: 6"));
     EXPECT_NE(why.find("config.yaml: damaged; take out its last line"), std::string::npos) << why;
+    const auto sum = whole.substr(0, whole.size() - 1);
+    for (const auto* end : {"", "\r\n", "\n\n"}) {  // as editors leave it
+        EXPECT_EQ(fault_of(sum + end), "");
+        EXPECT_NE(fault_of(replaced(sum, "epochs: 5", "epochs: 6") + end), "");
+    }
     const auto begins = text.size();  // of the last line
     for (std::size_t at = 0; at < whole.size(); ++at) {
         auto changed = whole;

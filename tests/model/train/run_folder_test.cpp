@@ -71,6 +71,17 @@ TEST_F(RunLog, GoesBackToTheCheckpointAndTellsOfWhatIsNoWholeLine) {
     write_file(log, line_of(1));
     EXPECT_EQ(run.rewind_log(3), log.string() + ": its last lines are missing: it ends at epoch 1 of 3");
 
+    const auto later = line_of(1) + line_of(2) + line_of(3) + line_of(2, 4);  // scores of epoch 2, done then
+    write_file(log, later);
+    EXPECT_EQ(run.rewind_log(3), "");
+    EXPECT_EQ(read_file(log), later);
+    write_file(log, line_of(2) + line_of(3).substr(0, 30));
+    EXPECT_EQ(run.rewind_log(3),
+              log.string() + ": lines are missing before line 1; its last line is cut short, and left out");
+    fs::remove(log);
+    EXPECT_EQ(run.rewind_log(3), log.string() + ": not there; curves begin at epoch 4");
+    EXPECT_FALSE(fs::exists(log));
+
     const std::string earlier = "{\"epoch\":1,\"loss\":0.5}\n";
     auto damaged = earlier + line_of(1, 2) + line_of(2, 3) + line_of(3, 4);
     damaged[damaged.find("\"step\":20") + 7] = '3';
