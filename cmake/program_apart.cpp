@@ -2,8 +2,10 @@
 // builds of that library for newer processors, x86-64-v3/PROGRAM.so say: the best that this processor can run is opened, or the one that
 // ACTFORMER_ISA names.
 #include <dlfcn.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -11,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 #include "base/process/memory_limit.hpp"
 #include "base/process/processor_level.hpp"
@@ -74,6 +77,32 @@ void start_again_with_vectors(const char* program, char** argv) {
     std::_Exit(1);
 }
 
+/// How many threads OpenBLAS will make.
+std::size_t openblas_threads() {
+    for (const auto* name : {"OPENBLAS_NUM_THREADS", "GOTO_NUM_THREADS", "OMP_NUM_THREADS"})
+        if (const char* count = std::getenv(name)) {
+            const auto said = std::strtoul(count, nullptr, 10);
+            if (said > 0 && said <= 1024) return said;
+        }
+    return std::max(1U, std::thread::hardware_concurrency());
+}
+
+/// Under a limit on memory OpenBLAS comes first, while there is room: each of its threads asks for a buffer as it is loaded, again and again
+/// without end where it gets none. The other libraries say so.
+void load_openblas_in_little_memory() {
+    constexpr std::size_t buffer = std::size_t{128} << 20, itself = std::size_t{96} << 20;
+    const auto bytes = openblas_threads() * buffer + itself;
+    void* const room = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED)
+        fail(
+            "not enough memory for OpenBLAS, which maps 128 MiB a thread; raise the limit (ulimit -v), or "
+            "let it "
+            "have fewer threads (OMP_NUM_THREADS=1)");
+    ::munmap(room, bytes);
+    ::setenv("UCX_LOG_LEVEL", "fatal", 0);  // what it says of threads that it cannot have is no line of ours
+    ::dlopen("libblas.so.3", RTLD_LAZY | RTLD_LOCAL);
+}
+
 /// For on_exit(3): without the libraries' own ends. OpenBLAS's waits for its threads, and these wait for memory that they cannot get.
 void end_now(int code, void*) {
     std::fflush(nullptr);
@@ -87,6 +116,7 @@ int main(int argc, char** argv) {
     std::error_code unread;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", unread);
     const auto usual = std::set_terminate(fail_for_want_of_memory);
+    if (memory_is_limited()) load_openblas_in_little_memory();
     if (!std::getenv("OPENBLAS_CORETYPE")) start_again_with_vectors(program.c_str(), argv);
     void* const library = ::dlopen(library_of(program).c_str(), RTLD_NOW | RTLD_LOCAL);
     std::set_terminate(usual);
