@@ -20,7 +20,7 @@ def own_library_of(folder, source, compiler, include, flags):
     """What the program says of the standard library that it was linked with: nothing where that is the system's."""
     folder.mkdir()
     (folder / 'CMakeLists.txt').write_text(PROJECT.format(source=source, include=include))
-    cmake = ['cmake', '-S', folder, '-B', folder / 'build', f'-DCMAKE_CXX_COMPILER={compiler}', f'-DCMAKE_EXE_LINKER_FLAGS={flags}']
+    cmake = ['cmake', '-G', 'Ninja', '-S', folder, '-B', folder / 'build', f'-DCMAKE_CXX_COMPILER={compiler}', f'-DCMAKE_EXE_LINKER_FLAGS={flags}']
     subprocess.run(cmake, check=True, stdout=subprocess.DEVNULL)
     subprocess.run(['cmake', '--build', folder / 'build'], check=True, stdout=subprocess.DEVNULL)
     return subprocess.run([folder / 'build/linked'], check=True, capture_output=True, text=True).stdout
