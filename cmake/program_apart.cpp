@@ -90,8 +90,8 @@ std::size_t openblas_threads() {
 /// Under a limit on memory OpenBLAS comes first, while there is room: each of its threads asks for a buffer as it is loaded, again and again
 /// without end where it gets none. The other libraries say so.
 void load_openblas_in_little_memory() {
-    constexpr std::size_t buffer = std::size_t{128} << 20, itself = std::size_t{96} << 20;
-    const auto bytes = openblas_threads() * buffer + itself;
+    constexpr std::size_t itself = std::size_t{96} << 20;
+    const auto bytes = openblas_threads() * actformer::openblas_buffer + itself;
     void* const room = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (room == MAP_FAILED)
         fail(

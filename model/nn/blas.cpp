@@ -72,9 +72,6 @@ int threads_asked_for() {
     return std::clamp(threads, 0, 1024);
 }
 
-/// What OpenBLAS maps for a thread that multiplies (its BUFFER_SIZE on x86-64), and keeps.
-constexpr std::size_t openblas_buffer = std::size_t{128} << 20;  // bytes
-
 /// Throws Error where a limit on memory leaves no room for the buffers of OpenBLAS's own threads and of `threads` that call it. Its own may
 /// have theirs by now: then this asks for more than is needed, and never for less.
 void expect_openblas_buffers(int threads) {

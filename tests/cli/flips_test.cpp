@@ -55,6 +55,12 @@ void flip(const std::string& what, const std::string& file, const std::string& a
                   [&] { return outcome_of(all.cache(), arguments, all.dir / output); });
 }
 
+/// Scores the motions beside the dataset.
+std::string score_into(const std::string& file) {
+    return "score --recogniser " + made().at("w.h5") + " --real " + made().at("data") +
+           " --window 20 --generated " + made().at("m.h5") + " -o " + made().at(file);
+}
+
 /// A sweep that scores the motions, and its report.
 struct ScoredSweep {
     std::string out = made().at("scored");
@@ -114,8 +120,7 @@ TEST(Flips, InAShard) {
 }
 
 TEST(Flips, InAShardWhoseFeaturesAreKept) {
-    const auto score = "score --recogniser " + made().at("w.h5") + " --real " + made().at("data") +
-                       " --window 20 --generated " + made().at("m.h5") + " -o " + made().at("s.json");
+    const auto score = score_into("s.json");
     ASSERT_EQ(made().run(score).exit, 0);
     flip("scored shard", "data/shard-00000.h5", score, "s.json", {"shard-00000.h5"});
 }
@@ -140,8 +145,7 @@ TEST(Flips, InFeatures) {
 }
 
 TEST(Flips, InCachedFeatures) {
-    const auto score = "score --recogniser " + made().at("w.h5") + " --real " + made().at("data") +
-                       " --window 20 --generated " + made().at("m.h5") + " -o " + made().at("s.json");
+    const auto score = score_into("s.json");
     ASSERT_EQ(made().run(score).exit, 0);
     fs::path cached;
     for (const auto& entry : fs::directory_iterator(made().dir / "cache/actformer/features"))
@@ -160,8 +164,7 @@ TEST(Flips, InCachedFeatures) {
 TEST(Flips, InWhatAnInterruptedScoreLeft) {
     const auto& all = made();
     const auto to = all.at("k.json"), work = to + ".work", kept = all.at("kept");
-    const auto score = "score --recogniser " + all.at("w.h5") + " --real " + all.at("data") +
-                       " --window 20 --generated " + all.at("m.h5") + " -o " + to;
+    const auto score = score_into("k.json");
     const auto score_with = [&](const std::string& how) {
         return run_command(all.cache() + " LD_PRELOAD=" + failing_calls() + " FAIL_BELOW=" + to +
                            ".partial " + how + " " + program() + " " + score);
