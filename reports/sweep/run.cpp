@@ -11,10 +11,10 @@
 #include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
-#include "base/files/lock.hpp"
 #include "base/process/interruption.hpp"
 #include "base/threads/thread.hpp"
 #include "reports/sweep/kept.hpp"
+#include "reports/sweep/waiting_lock.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -33,16 +33,6 @@ std::string now() {
     char text[32];
     std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
     return text;
-}
-
-/// Waits for whoever else does the job. None where a signal comes before.
-std::optional<FileLock> lock_when_free(const fs::path& path, const SafePoints& safe_points) {
-    auto lock = FileLock::if_free(path);
-    while (!lock && !safe_points.asked()) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-        lock = FileLock::if_free(path);
-    }
-    return lock;
 }
 
 /// Runs a job, unless somebody else has done it; empty, or why it failed. A job that a signal stopped leaves no mark of that.

@@ -38,8 +38,10 @@ std::vector<JobStatus> run_plan(const Sweep& sweep, const Plan& plan, const Swee
 /// Runs one job, whose needs must be done. For Slurm's jobs. Throws Error for an id that the plan has not.
 JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, const SweepOptions& options);
 
-/// Submits what is not done through sbatch, each job after those it needs; `command` gives the words that do a job where it lands. Keeps Slurm's numbers in OUT/slurm.json, and leaves alone what is queued there already. Returns how many were
-/// submitted. Throws Error where sbatch or squeue cannot be run or refuses.
+/// Submits what is not done through sbatch, each job after those it needs; `command` gives the words that do a job where it lands.
+/// Keeps Slurm's numbers in OUT/slurm.json, and leaves alone what is queued there already: by its number or, where a kill came before
+/// that was kept, by its comment. Processes that submit from one folder take turns. Returns how many were submitted. Throws Error
+/// where sbatch or squeue cannot be run or refuses, Interrupted after a signal.
 std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions& options,
                         const std::function<std::vector<std::string>(const Job&)>& command,
                         const std::vector<std::string>& sbatch_words,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "base/checksum/checked_json.hpp"
@@ -16,6 +17,7 @@
 #include "base/text/loose_json.hpp"
 #include "reports/sweep/kept.hpp"
 #include "reports/sweep/run.hpp"
+#include "reports/sweep/waiting_lock.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -36,6 +38,11 @@ Json submitted_before(const fs::path& out) {
     return json;
 }
 
+/// Empty where it was never submitted.
+std::string number_of(const std::string& id, const Json& numbers) {
+    return numbers.contains(id) && numbers[id].is_string() ? numbers[id].get<std::string>() : std::string();
+}
+
 void keep_submitted(Json numbers, const fs::path& out) {
     numbers["program"] = "actformer " ACTFORMER_VERSION;
     write_whole(out / "slurm.json", with_checksum(std::move(numbers)).dump(2) + "\n");
@@ -47,22 +54,37 @@ std::string refusal(const std::string& program, const std::string& line) {
     return program + ": " + (line.empty() ? "failed" : line);
 }
 
-/// Slurm's numbers of this user's jobs that wait or run there; none where squeue does not answer. Left out are those that are over
-/// but for the tidying up, and those that wait for what failed, which Slurm is about to drop.
-std::optional<std::set<std::string>> queue(const fs::path& out, std::string& why) {
+/// What waits or runs in Slurm.
+struct Queue {
+    std::set<std::string> numbers;            ///< of all jobs of this user
+    std::map<std::string, std::string> ours;  ///< by id, of the jobs submitted from one folder
+};
+
+/// What a job submitted from `out` has as its comment, up to its id.
+std::string comment_of_jobs(const fs::path& out) {
+    return fs::absolute(out / "jobs").lexically_normal().string() + "/";
+}
+
+/// What squeue tells; none where it does not answer. Left out are jobs that are over but for the tidying up, and those that wait for
+/// what failed, which Slurm is about to drop.
+std::optional<Queue> queue(const fs::path& out, std::string& why) {
     const Temporary temporary([&] { return out / fmt::format("squeue-{}.txt", ::getpid()); });
     const auto& file = temporary.path();
-    const auto asked = run_process({"squeue", "--noheader", "--me", "--format", "%i %t %r"}, file);
-    std::set<std::string> numbers;
+    const auto asked = run_process({"squeue", "--noheader", "--me", "--format", "%i %t %r %k"}, file);
+    const auto own = comment_of_jobs(out);
+    Queue queue;
     std::ifstream lines(file);
     for (std::string line; std::getline(lines, line);) {
         std::istringstream words(line);
-        std::string number, state, reason;
+        std::string number, state, reason, comment;
         words >> number >> state >> reason;
-        if (state != "CG" && reason != "DependencyNeverSatisfied") numbers.insert(number);
+        std::getline(words >> std::ws, comment);
+        if (state == "CG" || reason == "DependencyNeverSatisfied") continue;
+        queue.numbers.insert(number);
+        if (comment.starts_with(own)) queue.ours[comment.substr(own.size())] = number;
     }
     fs::remove(file);
-    if (asked.exit == 0) return numbers;
+    if (asked.exit == 0) return queue;
     why = asked.last_line;
     return {};
 }
@@ -81,8 +103,10 @@ std::string submit(const Job& job, const std::string& after, const SweepOptions&
     const auto folder = folder_of(options.out, job);
     const auto log = options.out / "slurm.log";
     make_folders(folder);
-    std::vector<std::string> words{"sbatch", "--parsable", "--job-name",
-                                   job.id,   "--output",   (folder / "slurm.txt").string()};
+    std::vector<std::string> words{"sbatch",     "--parsable",
+                                   "--job-name", job.id,
+                                   "--output",   (folder / "slurm.txt").string(),
+                                   "--comment",  comment_of_jobs(options.out) + job.id};
     if (!after.empty())
         words.insert(words.end(), {"--dependency", "afterok" + after, "--kill-on-invalid-dep=yes"});
     words.insert(words.end(), sbatch_words.begin(), sbatch_words.end());
@@ -100,11 +124,12 @@ std::optional<std::set<std::string>> jobs_in_slurm(const fs::path& out) {
     const auto before = submitted_before(out);
     if (before.empty()) return {};
     std::string why;
-    const auto numbers = queue(out, why);
-    if (!numbers) return {};
+    const auto now = queue(out, why);
+    if (!now) return {};
     std::set<std::string> ids;
     for (const auto& [id, number] : before.items())
-        if (number.is_string() && numbers->contains(number.get<std::string>())) ids.insert(id);
+        if (number.is_string() && now->numbers.contains(number.get<std::string>())) ids.insert(id);
+    for (const auto& [id, number] : now->ours) ids.insert(id);
     return ids;
 }
 
@@ -112,17 +137,18 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
                         const std::function<std::vector<std::string>(const Job&)>& command,
                         const std::vector<std::string>& sbatch_words,
                         const std::function<void(const Job& job, const std::string& why)>& again) {
-    const SafePoints safe_points;  // a number of Slurm's that is not kept would have its job submitted twice
+    const SafePoints safe_points;  // between two jobs: what is submitted is kept
     make_folders(options.out / "jobs");
     write_results(sweep, plan, options.out);
+    const auto lock = lock_when_free(options.out / "lock", safe_points);
+    if (!lock) safe_points.stop("another process submits the sweep's jobs");
     auto numbers = submitted_before(options.out);
-    std::set<std::string> queued;
-    if (!numbers.empty()) {
-        std::string why;
-        auto asked = queue(options.out, why);
-        if (!asked) throw Error("{}", refusal("squeue", why));
-        queued = std::move(*asked);
-    }
+    std::string why;
+    const auto queued = queue(options.out, why);
+    if (!queued) throw Error("{}", refusal("squeue", why));
+    for (const auto& [id, number] : queued->ours)
+        if (!queued->numbers.contains(number_of(id, numbers)))
+            numbers[id] = number;  // a kill came before it was kept
     // Asked after the queue: what has left that has left its mark by now.
     const auto status = checked_statuses(plan, options.out, again);
     std::vector<std::string> live(plan.jobs.size());  // numbers of those that wait or run
@@ -141,8 +167,8 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
             after += ":" + live[need];
         }
         if (!possible) continue;  // it needs what has a problem
-        if (numbers.contains(job.id) && numbers[job.id].is_string()) live[i] = numbers[job.id];
-        if (!live[i].empty() && queued.contains(live[i]) && !stale) continue;
+        live[i] = number_of(job.id, numbers);
+        if (!live[i].empty() && queued->numbers.contains(live[i]) && !stale) continue;
         if (safe_points.asked())
             safe_points.stop(fmt::format("{} submitted, and the same command goes on from there", submitted));
         live[i] = submit(job, after, options, command(job), sbatch_words);

@@ -191,6 +191,11 @@ class Chaos:
             if time.monotonic() > end:
                 raise Failure("jobs in Slurm do not end")
             time.sleep(0.05)
+        twice = self.slurm / "twice"
+        if twice.exists():
+            jobs = twice.read_text().split()
+            twice.unlink()
+            raise Failure(f"submitted while they waited or ran: {', '.join(jobs)}")
 
     def kill_in_slurm(self):
         """One of the jobs that run, and all its processes."""
@@ -272,7 +277,7 @@ class Chaos:
             how = self.random.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
             process.send_signal(how)
             if COMMANDS[name].in_background:
-                time.sleep(self.random.uniform(0, 3))
+                time.sleep(self.random.uniform(0.5, 3))  # an sbatch may outlive who called it
                 self.kill_in_slurm()
             code = process.wait()
             if code == 0:

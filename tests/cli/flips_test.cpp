@@ -262,13 +262,7 @@ TEST_F(SweepFlips, InTheMarkOfAJobThatFailed) {
 
 TEST_F(SweepFlips, InTheNumbersOfJobsInSlurm) {
     sweep_file(two_rows);
-    write_file(dir / "bin/sbatch",
-               "#!/bin/sh\nhere=$(dirname \"$0\")\necho \"$@\" >> $here/calls\nwc -l < $here/calls\n");
-    write_file(dir / "bin/squeue", "#!/bin/sh\nseq 1 8 | sed 's/$/ PD None/'\n");
-    for (const auto* name : {"sbatch", "squeue"}) ::chmod((dir / "bin" / name).c_str(), 0755);
-    const auto with_slurm = [&](const std::string& option) {
-        return run_command("PATH=" + at("bin") + ":$PATH " + command(option));
-    };
+    slurm_stand_in("", "seq 1 8 | sed 's/$/ PD None/'");
     ASSERT_EQ(with_slurm("--slurm").output.find("8 jobs submitted"), 0U);
     flip_and_read("slurm.json", dir / "out/slurm.json", flips_to_make(few), {"slurm.json"}, [&] {
         auto outcome = outcome_of(with_slurm("--status"));

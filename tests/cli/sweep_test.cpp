@@ -426,14 +426,8 @@ TEST_F(Sweep, NamesAreOnlyText) {
 
 TEST_F(Sweep, GoesThroughSlurm) {
     sweep_file(two_rows);
-    // A stand-in for sbatch that notes its call, answers with a number, and runs the job at once.
-    write_file(dir / "bin/sbatch",
-               "#!/bin/sh\nhere=$(dirname \"$0\")\necho \"$@\" >> $here/calls\n"
-               "for last; do :; done\nsh -c \"$last\" >$here/said 2>&1\nwc -l < $here/calls\n");
-    write_file(dir / "bin/squeue", "#!/bin/sh\n");
-    for (const auto* name : {"sbatch", "squeue"}) ::chmod((dir / "bin" / name).c_str(), 0755);
-    const auto result =
-        run_command("PATH=" + at("bin") + ":$PATH " + command("--slurm --sbatch=--gres=gpu:1"));
+    slurm_stand_in("for last; do :; done\nsh -c \"$last\" >$here/said 2>&1", "");  // runs the job at once
+    const auto result = with_slurm("--slurm --sbatch=--gres=gpu:1");
     ASSERT_EQ(result.exit, 0) << result.output;
     EXPECT_NE(result.output.find("8 jobs submitted"), std::string::npos) << result.output;
     const auto said = read_file(dir / "bin/calls");
@@ -443,6 +437,32 @@ TEST_F(Sweep, GoesThroughSlurm) {
     EXPECT_EQ(results()["rows"][1]["status"], "done") << read_file(dir / "bin/said");
     EXPECT_EQ(calls().size(), 9U);
     EXPECT_NE(sweep("--status").output.find("2 of 2 rows done"), std::string::npos);
+}
+
+/// The jobs that wait are those of all calls, each with its comment.
+constexpr const char* all_wait =
+    "[ ! -e $here/calls ] || sed 's/.*--comment \\([^ ]*\\).*/PD None \\1/' $here/calls | cat -n";
+
+TEST_F(Sweep, AKillBeforeSlurmsNumberIsKeptSubmitsNothingTwice) {
+    sweep_file(two_rows);
+    slurm_stand_in("[ $(wc -l < $here/calls) != 3 ] || kill -9 $PPID", all_wait);
+    EXPECT_NE(with_slurm("--slurm").exit, 0);
+    const auto again = with_slurm("--slurm");
+    ASSERT_EQ(again.exit, 0) << again.output;
+    EXPECT_NE(again.output.find("5 jobs submitted"), std::string::npos) << again.output;
+    EXPECT_EQ(lines_of("bin/calls").size(), 8U);
+    EXPECT_NE(read_file(dir / "bin/calls").find("afterok:3"), std::string::npos)
+        << "of the job it was killed at";
+}
+
+TEST_F(Sweep, SubmittedTwiceAtOnceGoesToSlurmOnce) {
+    sweep_file(two_rows);
+    slurm_stand_in("sleep 0.05", all_wait);
+    const auto once = command("--slurm");
+    const auto both = run_command("export PATH=" + at("bin") + ":$PATH; " + once + " & " + once + "; wait");
+    EXPECT_NE(both.output.find("8 jobs submitted"), std::string::npos) << both.output;
+    EXPECT_NE(both.output.find("0 jobs submitted"), std::string::npos) << both.output;
+    EXPECT_EQ(lines_of("bin/calls").size(), 8U) << read_file(dir / "bin/calls");
 }
 
 TEST(SweepFiles, AreSound) {

@@ -59,6 +59,16 @@ struct SweepFixture : testing::Test {
                at("actformer") + " " + more;
     }
     CommandResult sweep(const std::string& more = "") const { return run_command(command(more)); }
+    /// Scripts in place of Slurm's two programs. The first notes its calls in bin/calls, then does `submit`, and answers with their number.
+    void slurm_stand_in(const std::string& submit, const std::string& queue) const {
+        write_file(dir / "bin/sbatch", "#!/bin/sh\nhere=$(dirname \"$0\")\necho \"$@\" >> $here/calls\n" +
+                                           submit + "\nwc -l < $here/calls\n");
+        write_file(dir / "bin/squeue", "#!/bin/sh\nhere=$(dirname \"$0\")\n" + queue + "\n");
+        for (const auto* name : {"sbatch", "squeue"}) ::chmod((dir / "bin" / name).c_str(), 0755);
+    }
+    CommandResult with_slurm(const std::string& more) const {
+        return run_command("PATH=" + at("bin") + ":$PATH " + command(more));
+    }
     std::string at(const std::string& name) const { return (dir / name).string(); }
     std::vector<std::string> calls() const { return lines_of("calls"); }
     std::vector<std::string> lines_of(const std::string& name) const {
