@@ -30,9 +30,22 @@ struct Directions {
     }
 };
 
+/// The smallest rotation that brings one direction of length 1 to another; of several, where they are opposite, any. Eigen's
+/// Quaternion::FromTwoVectors takes a singular value decomposition for these, which costs a compiler ten seconds.
+Quaterniond smallest_rotation(const Vector3d& from, const Vector3d& to) {
+    constexpr double opposite = 1e-12;  // 1 + cosine, below which the cross product has no direction
+    const double once_more = 1 + from.dot(to);
+    if (once_more < opposite) {
+        const Vector3d axis = from.unitOrthogonal();
+        return {0, axis.x(), axis.y(), axis.z()};
+    }
+    const Vector3d axis = from.cross(to);
+    return Quaterniond(once_more, axis.x(), axis.y(), axis.z()).normalized();
+}
+
 /// The rotation with the least sum of squared distances between what it makes of `rest` and `now`; the smallest of several.
 Quaterniond best_rotation(const Directions& of) {
-    if (of.rest.size() == 1) return Quaterniond::FromTwoVectors(of.rest[0], of.now[0]);
+    if (of.rest.size() == 1) return smallest_rotation(of.rest[0], of.now[0]);
     Matrix3d h = Matrix3d::Zero();
     for (std::size_t i = 0; i < of.rest.size(); ++i) h += of.now[i] * of.rest[i].transpose();
     const Eigen::JacobiSVD<Matrix3d> svd(h, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -41,7 +54,7 @@ Quaterniond best_rotation(const Directions& of) {
     constexpr double on_a_line =
         1e-4;  // a plane seen at less than half a degree would turn with every rounding
     if (svd.singularValues()[1] < on_a_line * svd.singularValues()[0])
-        return Quaterniond::FromTwoVectors(v.col(0), u.col(0));
+        return smallest_rotation(v.col(0), u.col(0));
     const double mirrored = (u * v.transpose()).determinant() < 0 ? -1 : 1;
     return Quaterniond(u * Vector3d(1, 1, mirrored).asDiagonal() * v.transpose()).normalized();
 }
