@@ -64,8 +64,15 @@ TEST(Recogniser, AgreesWithThePlainForwardPass) {
     const auto tiles = kernels::default_tiles(device.info());
     for (const auto& c :
          {Case{1, 64, 3, true, 0.25}, Case{2, 60, 2, true, 0.125}, Case{1, 61, 2, false, 0.125},
-          Case{2, 17, 5, false, 0.25}, Case{1, 1, 2, true, 0.125}, Case{3, 2, 1, true, 0.2},
-          Case{1, 18, 9, true, 0.125}, Case{1, 19, 17, false, 0.125}})
+          Case{2, 17, 5, false, 0.25}, Case{1, 18, 9, true, 0.125}, Case{1, 19, 17, false, 0.125}})
+        expect_right(c, tiles, device);
+}
+
+// So few that an interpreter of kernels takes minutes, not hours (./run test --opencl oclgrind).
+TEST(Recogniser, AgreesOnAFrameOrTwo) {
+    kernels::Device device;
+    const auto tiles = kernels::default_tiles(device.info());
+    for (const auto& c : {Case{1, 1, 2, true, 0.125}, Case{3, 2, 1, true, 0.2}})
         expect_right(c, tiles, device);
 }
 
