@@ -1,5 +1,6 @@
 #include "ingest/pipeline/journal.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 
@@ -34,18 +35,43 @@ Json to_json(const Tranche& tranche) {
             {"labels", tranche.labels}};
 }
 
+Rejection::Kind kind_from(const Json& json) {
+    const auto number = json.get<int>();
+    if (number < 0 || number > static_cast<int>(Rejection::Kind::missing))
+        throw Error("there is no kind {} of rejection", number);
+    return static_cast<Rejection::Kind>(number);
+}
+
+/// A shard whose file lies below the working folder's data.
+KeptShard shard_from(const Json& json) {
+    KeptShard shard{shard_from_json(json.at("shard")), json.at("bytes").get<std::string>()};
+    const fs::path file = shard.entry.file;
+    if (file.is_absolute() || std::ranges::find(file, "..") != file.end())
+        throw Error("{}: not below the folder", file.string());
+    return shard;
+}
+
+/// Throws Error or Json::exception where no ingest wrote it.
 Tranche tranche_from(const Json& json) {
     Tranche tranche{json.at("files"), json.at("text_bytes"), json.at("fingerprint"), {}, {}, {},
                     json.at("names"), json.at("labels")};
     for (const auto& one : json.at("doubts"))
         tranche.doubts.push_back({one.at(0).get<std::size_t>(), one.at(1), one.at(2)});
     for (const auto& one : json.at("left_out"))
-        tranche.left_out.push_back(
-            {one.at(0), {static_cast<Rejection::Kind>(one.at(1).get<int>()), one.at(2)}});
+        tranche.left_out.push_back({one.at(0), {kind_from(one.at(1)), one.at(2)}});
     for (const auto& one : json.at("shards"))
-        tranche.shards.push_back({one.at("dataset").get<std::size_t>(),
-                                  {shard_from_json(one.at("shard")), one.at("bytes").get<std::string>()}});
+        tranche.shards.emplace_back(one.at("dataset").get<std::size_t>(), shard_from(one));
     return tranche;
+}
+
+/// None where the text is no tranche's, whatever its checksum says.
+std::optional<Tranche> tranche_in(const std::string& text) {
+    try {
+        return tranche_from(json_or_discarded<Json>(text));
+    } catch (const Json::exception&) {
+    } catch (const Error&) {
+    }
+    return {};
 }
 
 /// Text with bytes that are no UTF-8 (file names may hold any) replaced, so that every line can be read back.
@@ -100,14 +126,10 @@ bool Workplace::take_line(const std::string& line, std::size_t number) {
     const auto before = sum_;
     const auto space = line.find(' ');
     const auto text = space == std::string::npos ? std::string() : line.substr(space + 1);
-    std::string fault;
-    if (line_for(text) != line + "\n") {
-        fault = fmt::format("{}:{}: damaged", (folder_ / "journal").string(), number);
-    } else {
-        auto tranche = tranche_from(Json::parse(text));
-        fault = fault_of(tranche);
-        if (fault.empty()) finished_.push_back(std::move(tranche));
-    }
+    auto tranche = line_for(text) == line + "\n" ? tranche_in(text) : std::nullopt;
+    const auto fault =
+        tranche ? fault_of(*tranche) : fmt::format("{}:{}: damaged", (folder_ / "journal").string(), number);
+    if (fault.empty()) finished_.push_back(std::move(*tranche));
     if (fault.empty()) return true;
     sum_ = before;
     notes_.push_back(fault + "; what was done from there on is made again");
