@@ -13,7 +13,7 @@ namespace actformer {
 namespace {
 
 Descriptor open_lock(const std::filesystem::path& path) {
-    return {path, O_RDWR | O_CREAT};
+    return {path, O_RDWR | O_CREAT | O_NOFOLLOW};
 }
 
 }  // namespace

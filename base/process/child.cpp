@@ -11,22 +11,33 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "base/text/printable.hpp"
 
 namespace actformer {
 namespace {
 
+/// What execvpe() takes, and more that must be made before the fork.
+struct Start {
+    char* const* arguments;
+    char* const* environment;
+    const char* name;  ///< of the program, as a terminal may show it
+    int out, errors;
+    bool in_our_group;  ///< of processes, which the terminal's signals reach
+    pid_t parent;
+};
+
 /// In the child: only what is safe between fork and exec.
-[[noreturn]] void become(char* const* arguments, char* const* environment, int out, int errors,
-                         pid_t parent) {
+[[noreturn]] void become(const Start& start) {
     restore_signals();
+    if (!start.in_our_group) ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (::getppid() != parent) ::_exit(128 + SIGKILL);
+    if (::getppid() != start.parent) ::_exit(128 + SIGKILL);
     const int nothing = ::open("/dev/null", O_RDONLY);
     ::dup2(nothing, 0);
-    ::dup2(out, 1);
-    ::dup2(errors, 2);
-    ::execvpe(arguments[0], arguments, environment);
-    static_cast<void>(::dprintf(2, "%s: cannot be run: %s\n", arguments[0], std::strerror(errno)));
+    ::dup2(start.out, 1);
+    ::dup2(start.errors, 2);
+    ::execvpe(start.arguments[0], start.arguments, start.environment);
+    static_cast<void>(::dprintf(2, "%s: cannot be run: %s\n", start.name, std::strerror(errno)));
     ::_exit(127);
 }
 
@@ -50,14 +61,17 @@ std::vector<char*> pointers_to(const std::vector<std::string>& words) {
 
 }  // namespace
 
-Child::Child(const std::vector<std::string>& command, int out, int errors, const Environment& more) {
+Child::Child(const std::vector<std::string>& command, int out, int errors, const Environment& more,
+             OnSignal on_signal) {
     const auto words = environment_with(more);
     const auto arguments = pointers_to(command), environment = pointers_to(words);
-    const auto parent = ::getpid();
+    const auto name = printable(command[0]);
+    const bool ends = on_signal == OnSignal::end;
+    const Start start{arguments.data(), environment.data(), name.c_str(), out, errors, ends, ::getpid()};
     pid_ = ::fork();
-    if (pid_ == 0) become(arguments.data(), environment.data(), out, errors, parent);
+    if (pid_ == 0) become(start);
     if (pid_ < 0) throw Error("{}: no process can be made: {}", command[0], std::strerror(errno));
-    signals_.emplace(pid_);
+    if (ends) signals_.emplace(pid_);
 }
 
 Child::~Child() {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/process/child.hpp"
+
 namespace actformer {
 
 struct ProcessResult {
@@ -14,8 +16,18 @@ struct ProcessResult {
 
 /// Runs command[0] with the arguments that follow and waits. What it writes is appended to `log`; it reads nothing. A signal that
 /// this process catches reaches it too, as SIGTERM, and it does not outlive this process. Throws Error where the log cannot be
-/// opened or no process can be made; a program that is not there gives exit code 127.
+/// opened or is no regular file (it may be a link) or no process can be made; a program that is not there gives exit code 127.
 ProcessResult run_process(const std::vector<std::string>& command, const std::filesystem::path& log);
+
+struct Answer {
+    int exit = -1;       ///< as ProcessResult's
+    std::string output;  ///< all of its standard output
+    std::string why;     ///< the last line of its standard error
+};
+
+/// As run_process(), of a program whose standard output is an answer: of what it writes, standard error alone goes to `log`.
+Answer answer_of(const std::vector<std::string>& command, const std::filesystem::path& log,
+                 OnSignal on_signal = OnSignal::end);
 
 /// The folder that this program lies in: its sister programs lie there too.
 std::filesystem::path program_folder();

@@ -1,17 +1,14 @@
 // submit_plan and jobs_in_slurm of run.hpp.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <map>
 #include <sstream>
 
 #include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
-#include "base/files/temporary.hpp"
 #include "base/process/interruption.hpp"
 #include "base/process/process.hpp"
 #include "base/text/loose_json.hpp"
@@ -65,28 +62,29 @@ std::string comment_of_jobs(const fs::path& out) {
     return fs::absolute(out / "jobs").lexically_normal().string() + "/";
 }
 
+/// Takes what squeue prints of a job: its number, state, reason (which may have spaces) and comment.
+void take_line(const std::string& line, const std::string& own, Queue& queue) {
+    std::istringstream words(line);
+    std::string number, state, reason, comment;
+    for (auto* word : {&number, &state, &reason}) std::getline(words, *word, '|');
+    std::getline(words, comment);
+    if (state == "CG" || reason == "DependencyNeverSatisfied") return;
+    queue.numbers.insert(number);
+    if (comment.starts_with(own)) queue.ours[comment.substr(own.size())] = number;
+}
+
 /// What squeue tells; none where it does not answer. Left out are jobs that are over but for the tidying up, and those that wait for
 /// what failed, which Slurm is about to drop.
 std::optional<Queue> queue(const fs::path& out, std::string& why) {
-    const Temporary temporary([&] { return out / fmt::format("squeue-{}.txt", ::getpid()); });
-    const auto& file = temporary.path();
-    const auto asked = run_process({"squeue", "--noheader", "--me", "--format", "%i %t %r %k"}, file);
+    const auto said =
+        answer_of({"squeue", "--noheader", "--me", "--format", "%i|%t|%r|%k"}, out / "slurm.log");
+    why = said.why;
+    if (said.exit != 0) return {};
     const auto own = comment_of_jobs(out);
     Queue queue;
-    std::ifstream lines(file);
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        std::string number, state, reason, comment;
-        words >> number >> state >> reason;
-        std::getline(words >> std::ws, comment);
-        if (state == "CG" || reason == "DependencyNeverSatisfied") continue;
-        queue.numbers.insert(number);
-        if (comment.starts_with(own)) queue.ours[comment.substr(own.size())] = number;
-    }
-    fs::remove(file);
-    if (asked.exit == 0) return queue;
-    why = asked.last_line;
-    return {};
+    std::istringstream lines(said.output);
+    for (std::string line; std::getline(lines, line);) take_line(line, own, queue);
+    return queue;
 }
 
 /// sbatch --parsable prints NUMBER or NUMBER;CLUSTER.
@@ -111,18 +109,18 @@ std::string submit(const Job& job, const std::string& after, const SweepOptions&
         words.insert(words.end(), {"--dependency", "afterok" + after, "--kill-on-invalid-dep=yes"});
     words.insert(words.end(), sbatch_words.begin(), sbatch_words.end());
     words.insert(words.end(), {"--wrap", command_line(command)});
-    const auto said = run_process(words, log);
-    const auto number = number_in(said.last_line);
+    const auto said = answer_of(words, log, OnSignal::wait);
+    const auto number = number_in(said.output.substr(0, said.output.find('\n')));
     if (said.exit != 0 || number.empty())
-        throw Error("{}; see {}", refusal("sbatch", said.last_line), log.string());
+        throw Error("{}; see {}", refusal("sbatch", said.why), log.string());
     return number;
 }
 
 }  // namespace
 
 std::optional<std::set<std::string>> jobs_in_slurm(const fs::path& out) {
+    if (!fs::exists(out / "slurm.json")) return {};
     const auto before = submitted_before(out);
-    if (before.empty()) return {};
     std::string why;
     const auto now = queue(out, why);
     if (!now) return {};
@@ -137,7 +135,7 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
                         const std::function<std::vector<std::string>(const Job&)>& command,
                         const std::vector<std::string>& sbatch_words,
                         const std::function<void(const Job& job, const std::string& why)>& again) {
-    const SafePoints safe_points;  // between two jobs: what is submitted is kept
+    const SafePoints safe_points;  // between two jobs: the number of what is submitted is kept
     make_folders(options.out / "jobs");
     write_results(sweep, plan, options.out);
     const auto lock = lock_when_free(options.out / "lock", safe_points);
@@ -145,10 +143,12 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
     auto numbers = submitted_before(options.out);
     std::string why;
     const auto queued = queue(options.out, why);
+    if (!queued && safe_points.asked()) safe_points.stop("nothing submitted");
     if (!queued) throw Error("{}", refusal("squeue", why));
     for (const auto& [id, number] : queued->ours)
         if (!queued->numbers.contains(number_of(id, numbers)))
             numbers[id] = number;  // a kill came before it was kept
+    keep_submitted(numbers, options.out);
     // Asked after the queue: what has left that has left its mark by now.
     const auto status = checked_statuses(plan, options.out, again);
     std::vector<std::string> live(plan.jobs.size());  // numbers of those that wait or run

@@ -262,7 +262,7 @@ TEST_F(SweepFlips, InTheMarkOfAJobThatFailed) {
 
 TEST_F(SweepFlips, InTheNumbersOfJobsInSlurm) {
     sweep_file(two_rows);
-    slurm_stand_in("", "seq 1 8 | sed 's/$/ PD None/'");
+    slurm_stand_in("", "seq 1 8 | sed 's/$/|PD|None|(null)/'");
     ASSERT_EQ(with_slurm("--slurm").output.find("8 jobs submitted"), 0U);
     flip_and_read("slurm.json", dir / "out/slurm.json", flips_to_make(few), {"slurm.json"}, [&] {
         auto outcome = outcome_of(with_slurm("--status"));

@@ -441,7 +441,9 @@ TEST_F(Sweep, GoesThroughSlurm) {
 
 /// The jobs that wait are those of all calls, each with its comment.
 constexpr const char* all_wait =
-    "[ ! -e $here/calls ] || sed 's/.*--comment \\([^ ]*\\).*/PD None \\1/' $here/calls | cat -n";
+    "[ ! -e $here/calls ] || sed -n 's/.*--comment \\([^ ]*\\).*/|PD|Nodes are DOWN, DRAINED|\\1/p' "
+    "$here/calls | "
+    "awk '{print NR $0}'";
 
 TEST_F(Sweep, AKillBeforeSlurmsNumberIsKeptSubmitsNothingTwice) {
     sweep_file(two_rows);
@@ -455,6 +457,16 @@ TEST_F(Sweep, AKillBeforeSlurmsNumberIsKeptSubmitsNothingTwice) {
         << "of the job it was killed at";
 }
 
+TEST_F(Sweep, ASignalWhileAJobIsSubmittedWaitsForItsNumber) {
+    sweep_file(two_rows);
+    slurm_stand_in("[ $(wc -l < $here/calls) != 3 ] || { kill -TERM $PPID; sleep 0.2; }", "");
+    const auto stopped = with_slurm("--slurm");
+    EXPECT_EQ(stopped.exit, 143) << stopped.output;
+    EXPECT_NE(stopped.output.find("stopped by SIGTERM; 3 submitted"), std::string::npos) << stopped.output;
+    const auto numbers = nlohmann::json::parse(read_file(dir / "out/slurm.json"));
+    EXPECT_EQ(numbers.size(), 5U) << "three jobs, program and checksum: " << numbers;
+}
+
 TEST_F(Sweep, SubmittedTwiceAtOnceGoesToSlurmOnce) {
     sweep_file(two_rows);
     slurm_stand_in("sleep 0.05", all_wait);
@@ -462,6 +474,7 @@ TEST_F(Sweep, SubmittedTwiceAtOnceGoesToSlurmOnce) {
     const auto both = run_command("export PATH=" + at("bin") + ":$PATH; " + once + " & " + once + "; wait");
     EXPECT_NE(both.output.find("8 jobs submitted"), std::string::npos) << both.output;
     EXPECT_NE(both.output.find("0 jobs submitted"), std::string::npos) << both.output;
+    EXPECT_EQ(both.output.find("actformer: "), std::string::npos) << both.output;
     EXPECT_EQ(lines_of("bin/calls").size(), 8U) << read_file(dir / "bin/calls");
 }
 
