@@ -17,6 +17,7 @@
 #include "base/threads/parallel.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "ingest/export/npz/npz_writer.hpp"
 #include "ingest/formats/babel/babel_format.hpp"
 #include "ingest/pipeline/pipeline.hpp"
@@ -208,7 +209,7 @@ void bench_babel(const BabelBench& bench) {
             say("{:.1f} hours of linked motion ({}) in {:.1f} s, {:.0f} MiB of memory at most\n",
                 motion_hours(many), bytes(summary.text_bytes), summary.seconds.wall, peak_memory_mib());
     }
-    if (bench.json) fmt::print("{}\n", json.dump(2));
+    if (bench.json) say_json(json);
 }
 
 }  // namespace actformer::cli

@@ -17,6 +17,7 @@
 #include "cli/bench.hpp"
 #include "cli/common_options.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "eval/stgcn/operations.hpp"
 #include "eval/stgcn/recogniser.hpp"
 #include "eval/stgcn/tuning.hpp"
@@ -201,7 +202,7 @@ void print_json(const FeatureTimes& r, const BenchFeaturesOptions& options, cons
     peer("pytorch", r.peers.torch);
     peer("onnxruntime", r.peers.onnx);
     out["milliseconds_a_batch"] = steps;
-    fmt::print("{}\n", out.dump(2));
+    say_json(out);
 }
 
 /// Peers and program take turns, so that a busy machine disturbs them alike; each keeps its best.

@@ -20,6 +20,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "ingest/formats/motions/motions_format.hpp"
 #include "ingest/formats/ntu/actions.hpp"
 #include "ingest/formats/ntu/ntu_format.hpp"
@@ -207,7 +208,7 @@ void run_motions(const BenchIngestOptions& options) {
     auto json = to_json(best);
     json["peak_memory_mib"] = peak_memory_mib();
     if (options.json)
-        fmt::print("{}\n", json.dump(2));
+        say_json(json);
     else
         say("{} of .npy in {:.2f} s: {:.2f} GB/s, {:.0f} MiB of memory at most\n", bytes(best.text_bytes),
             best.seconds.wall, static_cast<double>(best.text_bytes) / best.seconds.wall / 1e9,
@@ -249,7 +250,7 @@ void run(const BenchIngestOptions& options) {
             say("{} clips in {}: {:.0f} clips/s, {:.0f} MiB of memory at most\n", grouped(many.files),
                 duration(many.seconds.wall), rate(many), peak_memory_mib());
     }
-    if (options.json) fmt::print("{}\n", json.dump(2));
+    if (options.json) say_json(json);
 }
 
 }  // namespace

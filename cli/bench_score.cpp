@@ -15,6 +15,7 @@
 #include "base/process/process.hpp"
 #include "cli/bench.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "eval/metrics/fid.hpp"
 #include "eval/scoring/features_file.hpp"
 
@@ -141,7 +142,7 @@ void print_json(const ScoreTimes& r, const BenchScoreOptions& options) {
         out["fid_whole"]["ratio"] = r.peer->whole_seconds / r.whole_seconds;
         out["largest_relative_difference"] = r.difference;
     }
-    fmt::print("{}\n", out.dump(2));
+    say_json(out);
 }
 
 void run(const BenchScoreOptions& options) {

@@ -18,6 +18,7 @@
 #include "base/text/printable.hpp"
 #include "cli/bench.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "model/generators/method_speed.hpp"
 
 namespace actformer::cli {
@@ -145,7 +146,7 @@ void print_json(const model::MethodSpeed& test, const std::vector<Row>& rows) {
         for (const auto& layer : row.layers)
             line["milliseconds"][layer.layer] = {{"forward", layer.forward}, {"backward", layer.backward}};
     }
-    fmt::print("{}\n", out.dump(2));
+    say_json(out);
 }
 
 /// Keys that would have no effect here.

@@ -14,6 +14,7 @@
 #include "cli/motion_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "ingest/export/foreign.hpp"
 
 namespace actformer::cli {
@@ -90,7 +91,7 @@ void run(const ClassifyOptions& options) {
     const auto names = class_names(extractor.recogniser(), motions->info());
     if (!options.out.empty()) write_whole(options.out, csv(clips, names));
     if (options.json)
-        fmt::print("{}\n", to_json(clips, names).dump(2));
+        say_json(to_json(clips, names));
     else
         print_table(clips, names);
 }

@@ -20,6 +20,7 @@
 #include "cli/format.hpp"
 #include "cli/report.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "cli/sweep_jobs.hpp"
 #include "eval/metrics/interval.hpp"
 #include "eval/metrics/metric.hpp"
@@ -300,7 +301,7 @@ void run(const CompareOptions& options) {
                   .force = true,
                   .filled_only = true});
     if (options.json)
-        fmt::print("{}\n", to_json(all, warnings, out / "report.html").dump(2));
+        say_json(to_json(all, warnings, out / "report.html"));
     else
         print(all, warnings, sweep);
 }

@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "kernels/device.hpp"
 
 namespace actformer::cli {
@@ -38,7 +39,7 @@ void print_json(const std::vector<kernels::DeviceInfo>& devices, std::size_t cho
                        {"max_allocation_bytes", d.max_allocation},
                        {"shares_memory", d.shares_memory},
                        {"default", d.index == chosen}});
-    fmt::print("{}\n", out.dump(2));
+    say_json(out);
 }
 
 }  // namespace

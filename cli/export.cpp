@@ -9,6 +9,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "ingest/export/export_format.hpp"
 
 namespace actformer::cli {
@@ -31,7 +32,7 @@ void print_json(const ingest::ExportSummary& summary) {
                                 {"clips", summary.clips},   {"frames", summary.frames},
                                 {"notes", summary.notes},   {"files", nlohmann::ordered_json::array()}};
     for (const auto& file : summary.files) json["files"].push_back(file.string());
-    fmt::print("{}\n", json.dump(2));
+    say_json(json);
 }
 
 void run(const ExportOptions& options) {

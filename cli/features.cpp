@@ -13,6 +13,7 @@
 #include "cli/motion_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "eval/scoring/features_file.hpp"
 #include "ingest/export/foreign.hpp"
 
@@ -33,7 +34,7 @@ void print(const FeaturesOptions& options, const eval::FeaturesSummary& s) {
                                       {"classes", s.classes},
                                       {"labelled", s.labelled}};
         if (s.accuracy) out["accuracy"] = *s.accuracy;
-        fmt::print("{}\n", out.dump(2));
+        say_json(out);
         return;
     }
     say("{}: {} of {} features and {} logits{}\n", options.out.string(), counted(s.sequences, "sequence"),

@@ -8,6 +8,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "ingest/export/foreign.hpp"
 #include "model/generators/generate.hpp"
 
@@ -28,14 +29,13 @@ void run(const GenerateOptions& options) {
     progress.clear();
     const auto file = options.request.out.string();
     if (options.json)
-        fmt::print("{}\n", nlohmann::ordered_json{{"file", file},
-                                                  {"motions", made.motions},
-                                                  {"classes", made.classes},
-                                                  {"persons", made.persons},
-                                                  {"numbers", made.numbers},
-                                                  {"nodes", made.nodes},
-                                                  {"frames", made.frames}}
-                               .dump(2));
+        say_json(nlohmann::ordered_json{{"file", file},
+                                        {"motions", made.motions},
+                                        {"classes", made.classes},
+                                        {"persons", made.persons},
+                                        {"numbers", made.numbers},
+                                        {"nodes", made.nodes},
+                                        {"frames", made.frames}});
     else
         say("{}: {} of {}, each ({}, {}, {})\n", file, counted(made.motions, "motion"),
             made.classes == 1 ? "1 class" : fmt::format("{} classes", made.classes),

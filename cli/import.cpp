@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "ingest/export/foreign.hpp"
 #include "model/generators/import_generator.hpp"
 #include "model/recognisers/import_recogniser.hpp"
@@ -19,10 +20,8 @@ namespace {
 void print(bool json, const std::string& file, const std::string& what, std::uint64_t numbers,
            std::uint32_t classes) {
     if (json)
-        fmt::print("{}\n",
-                   nlohmann::ordered_json{
-                       {"file", file}, {"kind", what}, {"parameters", numbers}, {"classes", classes}}
-                       .dump(2));
+        say_json(nlohmann::ordered_json{
+            {"file", file}, {"kind", what}, {"parameters", numbers}, {"classes", classes}});
     else
         say("{}: {}, {} in {}\n", file, what, counted(numbers, "number"),
             classes == 1 ? "1 class" : fmt::format("{} classes", classes));

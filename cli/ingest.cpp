@@ -12,6 +12,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "ingest/formats/formats.hpp"
 #include "ingest/pipeline/pipeline.hpp"
 #include "ingest/pipeline/record.hpp"
@@ -82,7 +83,7 @@ void print_json(const ingest::IngestSummary& s, const IngestOptions& options) {
     json["datasets"] = ingest::datasets_json(s);
     for (auto& dataset : json["datasets"])
         dataset["folder"] = printable(dataset["folder"].get_ref<const std::string&>());
-    fmt::print("{}\n", json.dump(2));
+    say_json(json);
 }
 
 void add_common(CLI::App* command, IngestOptions& options) {

@@ -11,6 +11,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/described_motions.hpp"
 #include "ingest/dataset/height.hpp"
@@ -172,7 +173,7 @@ void add_inspect(CLI::App& app) {
                 throw Error("{}: a file; --verify and --classes are for datasets", options->dataset);
             const auto file = motions_json(options->dataset);
             if (options->json)
-                fmt::print("{}\n", file.dump(2));
+                say_json(file);
             else
                 print_motions(file);
             return;
@@ -194,7 +195,7 @@ void add_inspect(CLI::App& app) {
                 json[i]["verified"] = true;
                 json[i]["checksums_of"] = of_bytes[i] ? "bytes" : "contents";
             }
-        if (options->json) fmt::print("{}\n", (json.size() == 1 ? json[0] : json).dump(2));
+        if (options->json) say_json(json.size() == 1 ? json[0] : json);
         if (options->verify && !options->json)
             say("verified: every checksum, offset and number is right; {}\n",
                 std::ranges::count(of_bytes, true) > 0

@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "cli/shipped_option.hpp"
 #include "eval/recogniser_kind.hpp"
 #include "ingest/dataset/dataset.hpp"
@@ -107,7 +108,7 @@ void print_json(const std::vector<model::NetworkSummary>& networks) {
         all += parameters_of(network);
     }
     out["parameters"] = all;
-    fmt::print("{}\n", out.dump(2));
+    say_json(out);
 }
 
 void run(const ModelOptions& options) {

@@ -14,6 +14,7 @@
 #include "cli/format.hpp"
 #include "cli/report.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "ingest/export/foreign.hpp"
 #include "reports/page/exports.hpp"
 #include "reports/page/page.hpp"
@@ -100,7 +101,7 @@ bool write_report(const ReportOptions& options) {
     if (!options.csv.empty()) write_whole(options.csv, reports::to_csv(tables));
     if (!options.latex.empty()) write_whole(options.latex, reports::to_latex(tables));
     for (const auto& notice : measured.notices) say(stderr, "notice: {}\n", notice);
-    if (options.json) fmt::print("{}\n", reports::to_json(tables, measured.notices).dump(2));
+    if (options.json) say_json(reports::to_json(tables, measured.notices));
     return std::ranges::any_of(measured.rows, [](const auto& row) { return row.status == "waiting"; });
 }
 

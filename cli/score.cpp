@@ -23,6 +23,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "eval/scoring/labels_file.hpp"
 #include "eval/scoring/motions_file_source.hpp"
 #include "eval/scoring/score.hpp"
@@ -271,7 +272,7 @@ void run(const ScoreOptions& options, const eval::GenerateSets& generate) {
     if (!options.out.empty()) write_whole(options.out, with_checksum(scored.json).dump(2) + "\n");
     work.done();
     if (options.json)
-        fmt::print("{}\n", scored.json.dump(2));
+        say_json(scored.json);
     else
         print_text(scored);
 }

@@ -15,6 +15,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "cli/shipped_option.hpp"
 #include "cli/sweep_jobs.hpp"
 #include "reports/sweep/run.hpp"
@@ -134,7 +135,7 @@ void run_here(const reports::Sweep& sweep, const reports::Plan& plan, const Swee
     const auto status =
         reports::run_plan(sweep, plan, {options.out, jobs, options.jobs}, told_events(options.out));
     if (options.json)
-        fmt::print("{}\n", reports::results(sweep, plan, options.out).dump(2));
+        say_json(reports::results(sweep, plan, options.out));
     else
         print_rows(sweep, plan, options);
     const auto failed = std::count_if(status.begin(), status.end(),
@@ -176,7 +177,7 @@ void run(SweepOptions options) {
             sweep, plan, {options.out, jobs}, [&](const reports::Job& job) { return again(options, job); },
             options.sbatch, told_events(options.out).again);
         if (options.json)
-            fmt::print("{}\n", Json{{"submitted", count}}.dump(2));
+            say_json(Json{{"submitted", count}});
         else
             say("{} submitted; follow them with actformer sweep {} -o {} --status\n", counted(count, "job"),
                 options.file.string(), options.out.string());
@@ -187,7 +188,7 @@ void run(SweepOptions options) {
         if (options.json) {
             auto json = reports::results(sweep, plan, options.out);
             json["jobs"] = jobs_json(plan, options, jobs);
-            fmt::print("{}\n", json.dump(2));
+            say_json(json);
         } else {
             print_plan(plan, options, jobs);
             if (options.status) print_rows(sweep, plan, options);

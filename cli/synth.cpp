@@ -12,6 +12,7 @@
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "ingest/synth/ntu/ntu.hpp"
 #include "ingest/synth/stand_in.hpp"
 
@@ -60,7 +61,7 @@ void print_summary(const Summary& s, const Options& options, bool json, double s
                                             {"bytes", s.bytes},
                                             {"seed", options.seed},
                                             {"seconds", seconds}};
-        fmt::print("{}\n", out.dump(2));
+        say_json(out);
         return;
     }
     say("{}: {}", options.folder.string(), counted(s.clips, "clip"));

@@ -8,6 +8,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "cli/training_options.hpp"
 #include "model/generators/method.hpp"
 
@@ -34,7 +35,7 @@ void print_json(const model::TrainingResult& result) {
         json["best_weights"] = result.best_weights.string();
         json["best"] = to_json(*result.best);
     }
-    fmt::print("{}\n", json.dump(2));
+    say_json(json);
 }
 
 void print_text(const model::TrainingResult& result) {

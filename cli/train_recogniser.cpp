@@ -9,6 +9,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/say.hpp"
+#include "cli/say_json.hpp"
 #include "cli/training_options.hpp"
 
 namespace actformer::cli {
@@ -51,7 +52,7 @@ void run(const TrainingOptions& options) {
     const auto result = model::train_recogniser(config, options.run, display.events());
     display.clear();
     if (options.json)
-        fmt::print("{}\n", to_json(result).dump(2));
+        say_json(to_json(result));
     else
         print_text(result, config.get<std::string>("test_split"));
 }

@@ -106,8 +106,7 @@ Value parsed(const Key& key, const YAML::Node& node, const std::string& where) {
     if (auto value = parse(key, node)) return *value;
     YAML::Emitter given;
     given << YAML::Flow << node;
-    throw Error("{}: {} must be {}, not '{}'", where, key.name, what_is_wanted(key),
-                printable(given.c_str()));
+    throw Error("{}: {} must be {}, not {}", where, key.name, what_is_wanted(key), in_quotes(given.c_str()));
 }
 
 std::string text_of(const Value& value) {

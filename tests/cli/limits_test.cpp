@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
@@ -87,4 +89,12 @@ TEST_F(Limits, NamesDoNotCommandTheTerminal) {
         for (const auto* raw : {"\033", "\007", "\342\200\256"})
             EXPECT_EQ(result.output.find(raw), std::string::npos) << result.output;
     }
+}
+
+TEST_F(Limits, NamesOfAnyBytesAreAsciiInJson) {
+    const auto name = "\"$(printf 'a\\377\\233\\342\\200\\256')\"";
+    const auto result = run_actformer("synth ntu --clips 1 --json -o " + (dir / "").string() + name);
+    EXPECT_EQ(result.exit, 0) << result.output;
+    EXPECT_TRUE(nlohmann::json::accept(result.output)) << result.output;
+    EXPECT_TRUE(std::ranges::all_of(result.output, [](char c) { return c > 0; })) << result.output;
 }
