@@ -30,17 +30,17 @@ struct Directions {
     }
 };
 
-/// The smallest rotation that brings one direction of length 1 to another; of several, where they are opposite, any. Eigen's
-/// Quaternion::FromTwoVectors takes a singular value decomposition for these, which costs a compiler ten seconds.
+/// The smallest rotation that brings one direction of length 1 to another; any of those where they are opposite. Eigen's
+/// Quaternion::FromTwoVectors has a singular value decomposition for opposite ones, which takes a compiler ten seconds.
 Quaterniond smallest_rotation(const Vector3d& from, const Vector3d& to) {
-    constexpr double opposite = 1e-12;  // 1 + cosine, below which the cross product has no direction
-    const double once_more = 1 + from.dot(to);
-    if (once_more < opposite) {
+    constexpr double nothing = 1e-30;  // the square of a few roundings
+    const Vector3d sum = from + to;    // exact where they are nearly opposite, as 1 + cosine is not
+    if (sum.squaredNorm() < nothing) {
         const Vector3d axis = from.unitOrthogonal();
         return {0, axis.x(), axis.y(), axis.z()};
     }
-    const Vector3d axis = from.cross(to);
-    return Quaterniond(once_more, axis.x(), axis.y(), axis.z()).normalized();
+    const Vector3d axis = from.cross(sum);
+    return Quaterniond(sum.squaredNorm() / 2, axis.x(), axis.y(), axis.z()).normalized();
 }
 
 /// The rotation with the least sum of squared distances between what it makes of `rest` and `now`; the smallest of several.

@@ -37,21 +37,21 @@ Json to_json(const Tranche& tranche) {
 
 Rejection::Kind kind_from(const Json& json) {
     const auto number = json.get<int>();
-    if (number < 0 || number > static_cast<int>(Rejection::Kind::missing))
+    if (number < 0 || number > static_cast<int>(Rejection::Kind::duplicate))
         throw Error("there is no kind {} of rejection", number);
     return static_cast<Rejection::Kind>(number);
 }
 
-/// A shard whose file lies below the working folder's data.
+/// Throws Error where its file does not lie below the working folder's data.
 KeptShard shard_from(const Json& json) {
     KeptShard shard{shard_from_json(json.at("shard")), json.at("bytes").get<std::string>()};
     const fs::path file = shard.entry.file;
     if (file.is_absolute() || std::ranges::find(file, "..") != file.end())
-        throw Error("{}: not below the folder", file.string());
+        throw Error("{}: not below the working folder's data", file.string());
     return shard;
 }
 
-/// Throws Error or Json::exception where no ingest wrote it.
+/// Throws Error or Json::exception where it is none.
 Tranche tranche_from(const Json& json) {
     Tranche tranche{json.at("files"), json.at("text_bytes"), json.at("fingerprint"), {}, {}, {},
                     json.at("names"), json.at("labels")};

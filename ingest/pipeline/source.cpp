@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
@@ -75,7 +76,9 @@ class Unpacked {
         write(file.bytes.data(), file.bytes.size(), 0);
         file.bytes = {};
     }
-    ~Unpacked() { ::close(descriptor_); }
+    ~Unpacked() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
     Unpacked(const Unpacked&) = delete;
     Unpacked& operator=(const Unpacked&) = delete;
 
@@ -88,6 +91,11 @@ class Unpacked {
             offset += written;
             size -= static_cast<std::size_t>(written);
         }
+    }
+
+    /// Some file systems tell only now that there was no room.
+    void finish() {
+        if (::close(std::exchange(descriptor_, -1)) != 0) fail();
     }
 
   private:
@@ -165,7 +173,10 @@ class Archive {
                 if (size > 0) std::memcpy(file.bytes.data() + offset, block, size);
             }
         }
-        if (!on_disk) file.bytes.resize(file.size + text_padding);
+        if (on_disk)
+            on_disk->finish();
+        else
+            file.bytes.resize(file.size + text_padding);
     }
 
     /// Compressed bytes read so far.

@@ -19,9 +19,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A working folder in memory with a shard in it, which goes with the program.
+/// A working folder in memory, which goes with the program unless that crashes.
 struct Folder {
-    Folder() : path(fs::path("/dev/shm") / ("fuzz-journal-" + std::to_string(::getpid()))) {}
+    Folder() : path(fs::path("/dev/shm") / ("fuzz-journal-" + std::to_string(::getpid()))) {
+        fs::remove_all(path);
+    }
     ~Folder() { fs::remove_all(path); }
     fs::path path;
 };

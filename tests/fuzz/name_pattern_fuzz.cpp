@@ -1,5 +1,5 @@
-// libFuzzer: the first line as a pattern of names, each other one as a path without its extension. What fits can be put together
-// again, what is refused is one line.
+// libFuzzer: the first line as a pattern of names, each other one as a path without its extension. The fields of what fits stand
+// in the path one after the other, what is refused is one line.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -26,8 +26,8 @@ std::string_view next_line(std::string_view& text) {
 void check_fields(const NamePattern& pattern, std::string_view path, const std::vector<std::string>& values) {
     demand(values.size() == pattern.fields().size());
     for (const auto& value : values) demand(!value.empty() && value.find('/') == std::string::npos);
-    if (printable(path) != path) return;  // as fields' values are
-    std::size_t behind = 0;               // they stand in the path one after the other
+    if (printable(path) != path) return;  // values are printable, the path's own bytes or not
+    std::size_t behind = 0;
     for (const auto& value : values) {
         behind = path.find(value, behind);
         demand(behind != std::string_view::npos);
