@@ -2,7 +2,7 @@
 """Kills, floods, doubles and damages what actformer does, at random moments drawn from a seed.
 
 Every command runs once undisturbed; what it makes then is what it must make after any disturbance and a run to the end:
-  kills     SIGKILL, SIGTERM or SIGINT at a random moment, several times, then the same command to its end
+  kills     SIGKILL, SIGTERM, SIGINT or SIGHUP at a random moment, several times, then the same command to its end
   disks     a file system with too little room; then the same command with enough of it (as root)
   doubles   the same command twice at once
   flips     one byte of what a command reads is changed: it is told, the file is made anew, or nothing comes of it
@@ -25,7 +25,7 @@ import sys
 import tempfile
 import time
 
-ENDED_BY = {signal.SIGKILL: -signal.SIGKILL, signal.SIGTERM: 128 + signal.SIGTERM, signal.SIGINT: 128 + signal.SIGINT}
+ENDED_BY = {signal.SIGKILL: -signal.SIGKILL} | {how: 128 + how for how in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)}
 
 RECOGNISER = """model: recogniser
 width: 0.1
@@ -86,6 +86,7 @@ OF_RECOGNISER, OF_GENERATOR, MOTIONS = ("{base}/recogniser/weights-last.h5",), (
 SWEPT = tuple("/jobs/*/" + name for name in ("scores.json", "run/config.yaml", "run/log.jsonl", "*.h5", "features/*.h5"))
 
 COMMANDS = {
+    "synth ntu": Command("synth ntu -o {out} --clips 60 --actions 6,8,9 --seed 1", "synthetic", TIMED, ("{out}/synth.json",)),
     "ingest ntu": Command("ingest ntu {base}/raw -o {out}", "data", TIMED, ("{out}/ingest.json", "{base}/raw/ORIGIN"), (".partial",)),
     "ingest bvh": Command("ingest bvh {base}/bvh -o {out} --name {{take}}A{{action}}", "frombvh", TIMED, ("{out}/ingest.json",),
                           (".partial",)),
@@ -104,6 +105,11 @@ COMMANDS = {
         "score --recogniser {base}/recogniser --real {base}/data/ntu-1p --split xsub/train --window 16 "
         "--generated {base}/motions.h5 -o {out}", "scores.json", (),
         DATASET + OF_RECOGNISER + MOTIONS + ("{cache}/actformer/features/*.h5",), (".work",)),
+    "classify": Command("classify --recogniser {base}/recogniser {base}/data/ntu-1p --window 16 -o {out}", "classes.csv", (),
+                        DATASET + OF_RECOGNISER),
+    "compare": Command(
+        "compare {base}/motions.h5 {base}/others.h5 --recogniser {base}/recogniser --real {base}/data/ntu-1p --split xsub/train "
+        "--window 16 -o {out}", "comparison", TIMED, DATASET + OF_RECOGNISER + MOTIONS),
     "report": Command("report {base}/sweep -o {out}", "report.html", (),
                       ("{base}/sweep/results.json",) + tuple("{base}/sweep" + name for name in SWEPT)),
     "render": Command("render {base}/motions.h5 --count 2 --size 60 -o {out}", "motions.gif", (), MOTIONS),
@@ -144,6 +150,11 @@ def differences(one, other, apart):
     return [str(n) for n in sorted(names - set(timed)) if not same(n)]
 
 
+def heed_signals():
+    for how in (signal.SIGINT, signal.SIGHUP):
+        signal.signal(how, signal.SIG_DFL)
+
+
 class Chaos:
     def __init__(self, options):
         self.program = str(pathlib.Path(options.program).resolve())
@@ -168,7 +179,7 @@ class Chaos:
     def start(self, words, base=None, out=None, log=None):
         line = [self.program, *[w.format(base=base or self.base, out=out) for w in words.split()]]
         return subprocess.Popen(line, stdin=subprocess.DEVNULL, stdout=log or subprocess.DEVNULL, stderr=subprocess.STDOUT,
-                                env=self.environment, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+                                env=self.environment, preexec_fn=heed_signals)
 
     def run(self, words, base=None, out=None):
         """Exit code and what it said."""
@@ -235,6 +246,7 @@ class Chaos:
         self.must_run("export {base}/data/ntu-1p -o {out} --format bvh", out=self.base / "bvh")
         for name in ("export npz", "export h5", "train recogniser", "train generator", "generate", "sweep", "sweep --slurm"):
             make(name)
+        self.must_run(COMMANDS["generate"].words + " --seed 2", out=self.base / "others.h5")
         for name in COMMANDS:
             if name not in made:
                 make(name)
@@ -253,7 +265,7 @@ class Chaos:
         command = COMMANDS[name]
         kept = {command.out} | (set() if finished else {command.out + e for e in command.left})
         extra = [p.name for p in folder.iterdir() if p.name not in kept]
-        deep = [str(p) for p in folder.rglob("*.partial*") if not finished and not command.left or finished]
+        deep = [str(p) for p in folder.rglob("*.partial*")] if finished or not command.left else []
         if extra or deep:
             raise Failure(f"{name}: left behind: {', '.join(extra + deep)}")
 
@@ -261,7 +273,7 @@ class Chaos:
         out = folder / COMMANDS[name].out
         self.must_do(name, out=out)
         self.compare(name, out)
-        return out
+        self.nothing_left(name, folder, True)
 
     def kills(self, name):
         folder = self.place()
@@ -274,7 +286,7 @@ class Chaos:
                 process.wait(self.random.uniform(0, self.seconds[name]))
             except subprocess.TimeoutExpired:
                 pass
-            how = self.random.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+            how = self.random.choice([signal.SIGKILL] * 3 + [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
             process.send_signal(how)
             if COMMANDS[name].in_background:
                 time.sleep(self.random.uniform(0.5, 3))  # an sbatch may outlive who called it
@@ -336,6 +348,7 @@ class Chaos:
                           " | ".join(log.read_text(errors="replace").strip()[-200:] for log in logs))
         self.wait_for_slurm()
         self.compare(name, out)
+        self.nothing_left(name, folder, True)
         shutil.rmtree(folder)
 
     def flips(self, name):
@@ -390,7 +403,7 @@ class Chaos:
             print(f"WRONG {self.failures[-1]}", flush=True)
 
     def print_table(self):
-        columns = ["kills", "SIGKILL", "SIGTERM", "SIGINT", "too late", "disks", "doubles", "flips", "told", "made anew", "no effect"]
+        columns = ["kills", "SIGKILL", "SIGTERM", "SIGINT", "SIGHUP", "too late", "disks", "doubles", "flips", "told", "made anew", "no effect"]
         print(f"{'':<18}" + "".join(f"{c:>10}" for c in columns))
         sums = collections.Counter()
         for name in self.only:

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Stands for sbatch and squeue, by the name it is called by: a job runs at once in the background, behind those it depends on.
 
-Below the folder CHAOS_SLURM lies a file for each job: NUMBER, empty, then with the process that runs it; NUMBER.comment; NUMBER.ended once it
-has, with its exit code. `twice` names the jobs that were submitted while they waited or ran. Python's standard library only.
+Below the folder CHAOS_SLURM lie files for each job: NUMBER, empty, then with the process that runs it; NUMBER.comment; NUMBER.needs, the jobs
+it depends on; NUMBER.ended once it has, with its exit code. `twice` names the jobs that were submitted while they waited or ran. Python's standard library only.
 """
 
 import contextlib
@@ -114,7 +114,8 @@ def squeue():
     with one_at_a_time():
         queue = alive()
     for number in queue:
-        print(number, "R" if (FOLDER / str(number)).stat().st_size else "PD", "None", comment_of(number) or "(null)")
+        state = "R" if (FOLDER / str(number)).stat().st_size else "PD"
+        print(number, state, "None", comment_of(number) or "(null)", sep="|")
 
 
 if __name__ == "__main__":
