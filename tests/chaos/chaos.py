@@ -109,7 +109,7 @@ COMMANDS = {
                         DATASET + OF_RECOGNISER),
     "compare": Command(
         "compare {base}/motions.h5 {base}/others.h5 --recogniser {base}/recogniser --real {base}/data/ntu-1p --split xsub/train "
-        "--window 16 -o {out}", "comparison", TIMED, DATASET + OF_RECOGNISER + MOTIONS),
+        "--window 16 -o {out}", "comparison", TIMED + ("report.html",), DATASET + OF_RECOGNISER + MOTIONS),
     "report": Command("report {base}/sweep -o {out}", "report.html", (),
                       ("{base}/sweep/results.json",) + tuple("{base}/sweep" + name for name in SWEPT)),
     "render": Command("render {base}/motions.h5 --count 2 --size 60 -o {out}", "motions.gif", (), MOTIONS),
