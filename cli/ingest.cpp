@@ -35,13 +35,11 @@ std::string left_out_text(const std::string& kind) {
     return "of a name that came before";
 }
 
-/// As in "train 200, test 74"; empty where the dataset has no splits.
-std::string splits_text(const std::string& folder) {
-    const ingest::Dataset dataset(folder);
-    std::vector<std::string> splits;
-    for (const auto& split : dataset.header().splits)
-        splits.push_back(fmt::format("{} {}", split.name, dataset.split(split.name).size()));
-    return fmt::format("{}", fmt::join(splits, ", "));
+/// As in "train 200, test 74".
+std::string splits_text(const ingest::SplitCounts& splits) {
+    std::vector<std::string> all;
+    for (const auto& [name, clips] : splits) all.push_back(fmt::format("{} {}", name, clips));
+    return fmt::format("{}", fmt::join(all, ", "));
 }
 
 void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
@@ -56,8 +54,7 @@ void print_text(const ingest::IngestSummary& s, const IngestOptions& options) {
         say("  {}: {} of {} in {}, {}, {}\n", d.folder, counted(d.clips, "clip"), counted(d.classes, "class"),
             counted(d.shards, "shard"), counted(d.frames, "frame"), bytes(d.bytes));
         if (s.was_complete) continue;
-        if (const auto splits = splits_text(d.folder); !splits.empty())
-            say("    clips of splits: {}\n", splits);
+        if (!d.splits.empty()) say("    clips of splits: {}\n", splits_text(d.splits));
     }
     for (const auto& remark : s.remarks) say("  {}\n", remark);
     for (const auto& doubt : s.doubts) say("  {}\n", to_line(doubt));

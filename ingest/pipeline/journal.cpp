@@ -32,7 +32,8 @@ Json to_json(const Tranche& tranche) {
             {"doubts", doubts},
             {"shards", shards},
             {"names", tranche.names},
-            {"labels", tranche.labels}};
+            {"labels", tranche.labels},
+            {"splits", tranche.splits}};
 }
 
 Rejection::Kind kind_from(const Json& json) {
@@ -54,7 +55,7 @@ KeptShard shard_from(const Json& json) {
 /// Throws Error or Json::exception where it is none.
 Tranche tranche_from(const Json& json) {
     Tranche tranche{json.at("files"), json.at("text_bytes"), json.at("fingerprint"), {}, {}, {},
-                    json.at("names"), json.at("labels")};
+                    json.at("names"), json.at("labels"),     json.at("splits")};
     for (const auto& one : json.at("doubts"))
         tranche.doubts.push_back({one.at(0).get<std::size_t>(), one.at(1), one.at(2)});
     for (const auto& one : json.at("left_out"))

@@ -49,6 +49,8 @@ struct Tranche {
     std::vector<std::string> names;                         ///< of the clips kept
     std::set<std::pair<std::size_t, std::uint32_t>>
         labels;  ///< dataset number, label: those that clips kept have
+    std::map<std::pair<std::size_t, std::string>, std::uint64_t>
+        splits;  ///< dataset number, split: how many of the clips kept are in it
 };
 
 /// The working folder, as workplace_of() tells it, held by one process at a time.

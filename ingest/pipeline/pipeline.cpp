@@ -177,6 +177,7 @@ class Ingest {
         const auto known = [&](std::size_t dataset) { return dataset < format_.datasets().size(); };
         if (!std::ranges::all_of(tranche.shards, known, [](const auto& one) { return one.first; }) ||
             !std::ranges::all_of(tranche.labels, known, [](const auto& one) { return one.first; }) ||
+            !std::ranges::all_of(tranche.splits, known, [](const auto& one) { return one.first.first; }) ||
             !std::ranges::all_of(tranche.doubts, known, &Doubtful::dataset))
             throw Error("{}: its journal is of other datasets; remove it",
                         workplace_of(request_.out).string());
@@ -308,6 +309,9 @@ class Ingest {
     void keep(std::unique_ptr<RawClip> clip) {
         tranche_.names.push_back(clip->name);
         tranche_.labels.emplace(clip->dataset, clip->label);
+        const auto& header = format_.datasets()[clip->dataset];
+        for (const auto& split : header.splits)
+            if (split.holds(header.fields, clip->fields)) ++tranche_.splits[{clip->dataset, split.name}];
         for (const auto& doubt : clip->doubts) tranche_.doubts.push_back({clip->dataset, doubt, clip->name});
         ++clips_done_;
         pending_bytes_ += clip->bytes();
@@ -391,13 +395,26 @@ class Ingest {
                 }
             for (const auto& doubt : doubts_of(tranches, d)) file.remarks.push_back(to_line(doubt));
             write_whole(folder / "dataset.json", to_text(file), Sync::later);
-            add_dataset(file, (request_.out / folder_of(d)).lexically_normal(), summary_);
+            add_dataset(file, (request_.out / folder_of(d)).lexically_normal(), clips_of_splits(d, tranches),
+                        summary_);
         }
         write_whole(workplace.data() / "rejected.csv", rejected_csv(tranches), Sync::later);
         write_whole(workplace.data() / "ingest.json",
                     record_text({format_.settings(), checksum(wanted), fingerprint_}, request_.out, summary_),
                     Sync::later);
         workplace.deliver(request_.out);
+    }
+
+    SplitCounts clips_of_splits(std::size_t dataset, const std::vector<Tranche>& tranches) const {
+        SplitCounts out;
+        for (const auto& split : format_.datasets()[dataset].splits) {
+            out.emplace_back(split.name, 0);
+            for (const auto& tranche : tranches)
+                if (const auto found = tranche.splits.find({dataset, split.name});
+                    found != tranche.splits.end())
+                    out.back().second += found->second;
+        }
+        return out;
     }
 
     /// With the first clip that was left out, one that is broken where there is any.

@@ -14,6 +14,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ingest/formats/format.hpp"
@@ -31,11 +32,15 @@ struct IngestRequest {
     std::function<void(double fraction, std::uint64_t clips)> progress;
 };
 
+/// Splits of a dataset, in its order, and how many clips are in each.
+using SplitCounts = std::vector<std::pair<std::string, std::uint64_t>>;
+
 struct IngestSummary {
     struct PerDataset {
         std::string folder;
         std::uint64_t clips = 0, frames = 0, bytes = 0;
         std::size_t shards = 0, classes = 0;
+        SplitCounts splits{};
     };
     std::uint64_t files = 0, text_bytes = 0;
     std::map<std::string, std::uint64_t> left_out;  ///< kind of rejection -> how many

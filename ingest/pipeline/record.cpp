@@ -67,8 +67,10 @@ void add_up(const std::vector<Tranche>& tranches, IngestSummary& summary) {
     }
 }
 
-void add_dataset(const DatasetFile& file, const fs::path& folder, IngestSummary& summary) {
-    IngestSummary::PerDataset entry{folder.string(), 0, 0, 0, file.shards.size(), file.header.classes.size()};
+void add_dataset(const DatasetFile& file, const fs::path& folder, SplitCounts splits,
+                 IngestSummary& summary) {
+    IngestSummary::PerDataset entry{folder.string(),  0, 0, 0, file.shards.size(), file.header.classes.size(),
+                                    std::move(splits)};
     for (const auto& shard : file.shards) {
         entry.clips += shard.clips;
         entry.frames += shard.frames;
@@ -108,13 +110,15 @@ nlohmann::ordered_json doubts_json(const IngestSummary& summary) {
 
 nlohmann::ordered_json datasets_json(const IngestSummary& summary) {
     auto all = nlohmann::ordered_json::array();
-    for (const auto& d : summary.datasets)
+    for (const auto& d : summary.datasets) {
         all.push_back({{"folder", d.folder},
                        {"clips", d.clips},
                        {"frames", d.frames},
                        {"bytes", d.bytes},
                        {"shards", d.shards},
                        {"classes", d.classes}});
+        for (const auto& [split, clips] : d.splits) all.back()["splits"][split] = clips;
+    }
     return all;
 }
 

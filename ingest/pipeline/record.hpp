@@ -21,7 +21,8 @@ struct Origin {
 
 /// Counts files and rejections into `summary`.
 void add_up(const std::vector<Tranche>& tranches, IngestSummary& summary);
-void add_dataset(const DatasetFile& file, const std::filesystem::path& folder, IngestSummary& summary);
+void add_dataset(const DatasetFile& file, const std::filesystem::path& folder, SplitCounts splits,
+                 IngestSummary& summary);
 
 /// The doubts about clips of one dataset.
 std::vector<IngestSummary::Doubt> doubts_of(const std::vector<Tranche>& tranches, std::size_t dataset);

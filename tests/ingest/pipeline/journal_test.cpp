@@ -14,6 +14,7 @@ TEST(Journal, ComesBackWithEveryKindOfRejection) {
     noted.files = 4;
     noted.names = {"kept"};
     noted.labels = {{0, 2}};
+    noted.splits[{0, "xsub/train"}] = 1;
     for (const auto kind : {Rejection::Kind::broken, Rejection::Kind::dropped, Rejection::Kind::missing,
                             Rejection::Kind::duplicate})
         noted.left_out.push_back({"file", {kind, "why"}});
@@ -31,5 +32,6 @@ TEST(Journal, ComesBackWithEveryKindOfRejection) {
         EXPECT_EQ(back.left_out[i].rejection.kind, noted.left_out[i].rejection.kind) << i;
     EXPECT_EQ(back.names, noted.names);
     EXPECT_EQ(back.labels, noted.labels);
+    EXPECT_EQ(back.splits, noted.splits);
     EXPECT_EQ(back.doubts.front().clip, "kept");
 }
