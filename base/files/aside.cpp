@@ -210,9 +210,6 @@ void Aside::settle() {
     check();
     flush();
     if (!output_.stream && sync_ == Sync::now && !is_synced(file_.get())) fail();
-    if (!output_.stream &&
-        sync_ == Sync::later)  // so that there is less to wait for; where it cannot be begun, it comes then
-        static_cast<void>(::sync_file_range(file_.get(), 0, 0, SYNC_FILE_RANGE_WRITE));
     if (!file_.close()) fail();
     settled_ = true;
 }

@@ -53,7 +53,7 @@ std::optional<FileLock> FileLock::on_folder_if_free(const std::filesystem::path&
 
 bool FileLock::is_held(const std::filesystem::path& path) {
     FileLock lock;
-    lock.file_ = Descriptor(path, O_RDONLY | O_NONBLOCK);  // a FIFO is no lock
+    lock.file_ = Descriptor(path, O_RDONLY | O_NONBLOCK | O_NOFOLLOW);  // a FIFO or link is no lock
     return lock.file_.get() >= 0 && ::flock(lock.file_.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 

@@ -28,8 +28,8 @@ struct Start {
 
 /// In the child: only what is safe between fork and exec.
 [[noreturn]] void become(const Start& start) {
+    if (!start.in_our_group) ::setpgid(0, 0);  // before a signal of the terminal's can end it
     restore_signals();
-    if (!start.in_our_group) ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != start.parent) ::_exit(128 + SIGKILL);
     const int nothing = ::open("/dev/null", O_RDONLY);

@@ -23,7 +23,7 @@ struct Pipe {
         to = Descriptor(ends[1]);
     }
 
-    /// All that comes until nobody holds the other end any more, as this process does not from here on.
+    /// Closes this process's writing end, then reads until all others have closed theirs.
     std::string read_all() {
         to.close();
         std::string all;

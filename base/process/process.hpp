@@ -16,7 +16,7 @@ struct ProcessResult {
 
 /// Runs command[0] with the arguments that follow and waits. What it writes is appended to `log`; it reads nothing. A signal that
 /// this process catches reaches it too, as SIGTERM, and it does not outlive this process. Throws Error where the log cannot be
-/// opened or is no regular file (it may be a link) or no process can be made; a program that is not there gives exit code 127.
+/// opened, is a link or no regular file, or no process can be made; a program that is not there gives exit code 127.
 ProcessResult run_process(const std::vector<std::string>& command, const std::filesystem::path& log);
 
 struct Answer {

@@ -33,7 +33,7 @@ struct Directions {
 /// The smallest rotation that brings one direction of length 1 to another; any of those where they are opposite. Eigen's
 /// Quaternion::FromTwoVectors has a singular value decomposition for opposite ones, which takes a compiler ten seconds.
 Quaterniond smallest_rotation(const Vector3d& from, const Vector3d& to) {
-    constexpr double nothing = 1e-30;  // the square of a few roundings
+    constexpr double nothing = 1e-24;  // the square of many roundings, and of a turn that nobody sees
     const Vector3d sum = from + to;    // exact where they are nearly opposite, as 1 + cosine is not
     if (sum.squaredNorm() < nothing) {
         const Vector3d axis = from.unitOrthogonal();

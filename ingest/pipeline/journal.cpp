@@ -47,7 +47,8 @@ Rejection::Kind kind_from(const Json& json) {
 KeptShard shard_from(const Json& json) {
     KeptShard shard{shard_from_json(json.at("shard")), json.at("bytes").get<std::string>()};
     const fs::path file = shard.entry.file;
-    if (file.is_absolute() || std::ranges::find(file, "..") != file.end())
+    if (file.is_absolute() ||
+        std::any_of(file.begin(), file.end(), [](const fs::path& part) { return part == ".."; }))
         throw Error("{}: not below the working folder's data", file.string());
     return shard;
 }
@@ -63,6 +64,15 @@ Tranche tranche_from(const Json& json) {
     for (const auto& one : json.at("shards"))
         tranche.shards.emplace_back(one.at("dataset").get<std::size_t>(), shard_from(one));
     return tranche;
+}
+
+/// False where it names a dataset that there is not.
+bool is_of_datasets(const Tranche& tranche, std::size_t datasets) {
+    const auto known = [datasets](std::size_t number) { return number < datasets; };
+    return std::ranges::all_of(tranche.shards, known, [](const auto& one) { return one.first; }) &&
+           std::ranges::all_of(tranche.labels, known, [](const auto& one) { return one.first; }) &&
+           std::ranges::all_of(tranche.splits, known, [](const auto& one) { return one.first.first; }) &&
+           std::ranges::all_of(tranche.doubts, known, &Doubtful::dataset);
 }
 
 /// None where the text is no tranche's, whatever its checksum says.
@@ -82,7 +92,8 @@ std::string text_of(const Json& json) {
 
 }  // namespace
 
-Workplace::Workplace(fs::path folder, const std::string& request) : folder_(std::move(folder)) {
+Workplace::Workplace(fs::path folder, const std::string& request, std::size_t datasets)
+    : folder_(std::move(folder)), datasets_(datasets) {
     const auto expect_free = [this](bool is_free) {
         if (!is_free)
             throw Error("{}: another ingest is writing there; wait for it, or choose another -o",
@@ -128,6 +139,7 @@ bool Workplace::take_line(const std::string& line, std::size_t number) {
     const auto space = line.find(' ');
     const auto text = space == std::string::npos ? std::string() : line.substr(space + 1);
     auto tranche = line_for(text) == line + "\n" ? tranche_in(text) : std::nullopt;
+    if (tranche && !is_of_datasets(*tranche, datasets_)) tranche.reset();
     const auto fault =
         tranche ? fault_of(*tranche) : fmt::format("{}:{}: damaged", (folder_ / "journal").string(), number);
     if (fault.empty()) finished_.push_back(std::move(*tranche));

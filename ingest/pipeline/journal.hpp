@@ -56,10 +56,10 @@ struct Tranche {
 /// The working folder, as workplace_of() tells it, held by one process at a time.
 class Workplace {
   public:
-    /// Opens or makes `folder`. Work that an earlier run left for another `request` (settings and raw files) is thrown away, and
-    /// what is no longer as it was written. Throws Error where another process holds it, and where something lies there that no
+    /// Opens or makes `folder`, for work on so many datasets. Work that an earlier run left for another `request` (settings and raw
+    /// files) is thrown away, and what is no longer as it was written. Throws Error where another process holds it, and where something lies there that no
     /// ingest left.
-    Workplace(std::filesystem::path folder, const std::string& request);
+    Workplace(std::filesystem::path folder, const std::string& request, std::size_t datasets);
 
     const std::vector<Tranche>& finished() const { return finished_; }
 
@@ -89,6 +89,7 @@ class Workplace {
     std::string line_for(const std::string& text);
 
     std::filesystem::path folder_;
+    std::size_t datasets_;
     std::optional<FileLock> lock_;
     std::vector<Tranche> finished_;
     std::vector<std::string> notes_;

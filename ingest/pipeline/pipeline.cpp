@@ -80,7 +80,7 @@ class Ingest {
             return summary_;
         }
         const SafePoints safe_points;
-        Workplace workplace(aside, wanted);
+        Workplace workplace(aside, wanted, format_.datasets().size());
         summary_.made_again = workplace.notes();
         try {
             go_on_from(workplace, source);
@@ -172,21 +172,9 @@ class Ingest {
         throw Error("{} (--strict; without it such clips are skipped)", clip);
     }
 
-    /// Throws Error where the tranche is not of this format's datasets, whatever the journal's checksums say.
-    void expect_own_datasets(const Tranche& tranche) const {
-        const auto known = [&](std::size_t dataset) { return dataset < format_.datasets().size(); };
-        if (!std::ranges::all_of(tranche.shards, known, [](const auto& one) { return one.first; }) ||
-            !std::ranges::all_of(tranche.labels, known, [](const auto& one) { return one.first; }) ||
-            !std::ranges::all_of(tranche.splits, known, [](const auto& one) { return one.first.first; }) ||
-            !std::ranges::all_of(tranche.doubts, known, &Doubtful::dataset))
-            throw Error("{}: its journal is of other datasets; remove it",
-                        workplace_of(request_.out).string());
-    }
-
     void go_on_from(const Workplace& workplace, Source& source) {
         RawFile skipped;
         for (const auto& tranche : workplace.finished()) {
-            expect_own_datasets(tranche);
             count(tranche);
             for (const auto& left : tranche.left_out)
                 if (request_.strict && left.is_broken()) stop_at(left.text());

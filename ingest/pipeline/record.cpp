@@ -32,10 +32,13 @@ void take_summary(const nlohmann::ordered_json& json, const fs::path& out, Inges
     summary.remarks = json.at("remarks").get<std::vector<std::string>>();
     for (const auto& d : json.at("doubts"))
         summary.doubts.push_back({d.at("what"), d.at("clips"), d.at("first")});
-    for (const auto& d : json.at("datasets"))
+    for (const auto& d : json.at("datasets")) {
         summary.datasets.push_back({(out / d.at("folder").get<std::string>()).lexically_normal().string(),
                                     d.at("clips"), d.at("frames"), d.at("bytes"), d.at("shards"),
                                     d.at("classes")});
+        for (const auto& [split, clips] : d.value("splits", nlohmann::ordered_json::object()).items())
+            summary.datasets.back().splits.emplace_back(split, clips);
+    }
 }
 
 }  // namespace

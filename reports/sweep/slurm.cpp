@@ -110,9 +110,12 @@ std::string submit(const Job& job, const std::string& after, const SweepOptions&
     words.insert(words.end(), sbatch_words.begin(), sbatch_words.end());
     words.insert(words.end(), {"--wrap", command_line(command)});
     const auto said = answer_of(words, log, OnSignal::wait);
-    const auto number = number_in(said.output.substr(0, said.output.find('\n')));
+    std::string number, last;  // a site's own sbatch may print more
+    std::istringstream lines(said.output);
+    for (std::string line; std::getline(lines, line); last = line)
+        if (const auto found = number_in(line); !found.empty()) number = found;
     if (said.exit != 0 || number.empty())
-        throw Error("{}; see {}", refusal("sbatch", said.why), log.string());
+        throw Error("{}; see {}", refusal("sbatch", said.why.empty() ? last : said.why), log.string());
     return number;
 }
 
@@ -171,7 +174,12 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
         if (!live[i].empty() && queued->numbers.contains(live[i]) && !stale) continue;
         if (safe_points.asked())
             safe_points.stop(fmt::format("{} submitted, and the same command goes on from there", submitted));
-        live[i] = submit(job, after, options, command(job), sbatch_words);
+        try {
+            live[i] = submit(job, after, options, command(job), sbatch_words);
+        } catch (const Error&) {
+            if (safe_points.asked()) safe_points.stop(fmt::format("{} submitted", submitted));
+            throw;
+        }
         fresh[i] = true;
         numbers[job.id] = live[i];
         keep_submitted(numbers, options.out);

@@ -19,11 +19,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Of files in memory, where there is one.
+fs::path memory() {
+    const fs::path shared = "/dev/shm";
+    return ::access(shared.c_str(), W_OK) == 0 ? shared : fs::temp_directory_path();
+}
+
 /// A working folder in memory, which goes with the program unless that crashes.
 struct Folder {
-    Folder() : path(fs::path("/dev/shm") / ("fuzz-journal-" + std::to_string(::getpid()))) {
-        fs::remove_all(path);
-    }
+    Folder() : path(memory() / ("fuzz-journal-" + std::to_string(::getpid()))) { fs::remove_all(path); }
     ~Folder() { fs::remove_all(path); }
     fs::path path;
 };
@@ -59,11 +63,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     try_to([&] {
         std::size_t kept = 0;
         {
-            const ingest::Workplace workplace(folder.path, request);
+            const ingest::Workplace workplace(folder.path, request, 1);
             kept = workplace.finished().size();
             demand(workplace.notes().size() <= 1);
         }
-        ingest::Workplace again(folder.path, request);
+        ingest::Workplace again(folder.path, request, 1);
         demand(again.finished().size() == kept && again.notes().empty());
         again.finish({});
     });

@@ -164,6 +164,20 @@ TEST(MinimalTwist, NeighboursInTimeLieInOneHalfSpace) {
     }
 }
 
+// The rotation itself, which positions that move would hide: it turns the rest bone to the bone of the frame.
+TEST(MinimalTwist, OppositeBonesTurnAllTheWay) {
+    const Topology tree{{"a", "b"}, {-1, 0}};
+    for (const double off : {0.0, 1e-17, 1e-15, 1e-13, 1e-11, 1e-8, 1e-4}) {
+        const std::vector<Point> joints{{0, 0, 0}, {off, -1, 0}};
+        const auto found = minimal_twist(tree, joints, std::vector<Point>{{}, {0, 1, 0}});
+        const auto& q = found.turn(0, 0);
+        // R(q) (0, 1, 0)
+        EXPECT_NEAR(2 * (q.x * q.y - q.w * q.z), off, 2e-12) << off;
+        EXPECT_NEAR(1 - 2 * (q.x * q.x + q.z * q.z), -1, 2e-8) << off;
+        EXPECT_NEAR(2 * (q.y * q.z + q.w * q.x), 0, 2e-12) << off;
+    }
+}
+
 TEST(MinimalTwist, BonesWithoutLengthAreTaken) {
     const Topology tree{{"a", "b", "c", "d"}, {-1, 0, 1, 1}};
     std::vector<Point> joints(3 * 4, Point{1, 2, 3});  // all in one place ...

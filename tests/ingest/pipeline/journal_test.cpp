@@ -20,10 +20,10 @@ TEST(Journal, ComesBackWithEveryKindOfRejection) {
         noted.left_out.push_back({"file", {kind, "why"}});
     noted.doubts.push_back({0, "too fast", "kept"});
     {
-        Workplace stopped(dir / "out.partial", "request");
+        Workplace stopped(dir / "out.partial", "request", 1);
         stopped.finish(noted);
     }
-    const Workplace again(dir / "out.partial", "request");
+    const Workplace again(dir / "out.partial", "request", 1);
     EXPECT_TRUE(again.notes().empty()) << again.notes().front();
     ASSERT_EQ(again.finished().size(), 1U);
     const auto& back = again.finished().front();
@@ -34,4 +34,18 @@ TEST(Journal, ComesBackWithEveryKindOfRejection) {
     EXPECT_EQ(back.labels, noted.labels);
     EXPECT_EQ(back.splits, noted.splits);
     EXPECT_EQ(back.doubts.front().clip, "kept");
+}
+
+TEST(Journal, OfDatasetsThatThereAreNotIsDamaged) {
+    const test::TempDir dir;
+    Tranche noted;
+    noted.labels = {{1, 2}};
+    {
+        Workplace stopped(dir / "out.partial", "request", 2);
+        stopped.finish(noted);
+    }
+    const Workplace again(dir / "out.partial", "request", 1);
+    EXPECT_TRUE(again.finished().empty());
+    ASSERT_EQ(again.notes().size(), 1U);
+    EXPECT_NE(again.notes()[0].find("journal:2: damaged"), std::string::npos) << again.notes()[0];
 }
