@@ -36,7 +36,8 @@ void take_summary(const nlohmann::ordered_json& json, const fs::path& out, Inges
         summary.datasets.push_back({(out / d.at("folder").get<std::string>()).lexically_normal().string(),
                                     d.at("clips"), d.at("frames"), d.at("bytes"), d.at("shards"),
                                     d.at("classes")});
-        for (const auto& [split, clips] : d.value("splits", nlohmann::ordered_json::object()).items())
+        const auto splits = d.value("splits", nlohmann::ordered_json::object());
+        for (const auto& [split, clips] : splits.items())
             summary.datasets.back().splits.emplace_back(split, clips);
     }
 }

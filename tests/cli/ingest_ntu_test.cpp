@@ -213,6 +213,14 @@ TEST_F(IngestNtu, FindsItsWorkDoneTheSecondTime) {
     EXPECT_EQ(again.exit, 0);
     EXPECT_NE(again.output.find("complete already"), std::string::npos) << again.output;
     EXPECT_EQ(tree(out()), before);
+    const auto splits = [](const CommandResult& said) {
+        return nlohmann::json::parse(said.output).at("datasets").at(0).at("splits");
+    };
+    const auto json = [this](const std::string& out) {
+        return run_actformer("ingest ntu " + raw() + " -o " + out + " --json");
+    };
+    EXPECT_EQ(splits(json(out())), splits(json((dir / "first").string())));
+    EXPECT_EQ(splits(json(out())).at("xsub/train"), 1);
     clip("S001C001P001R001A002", plain_clip());
     EXPECT_EQ(ingest().exit, 1) << "other raw data is another request";
 }
