@@ -75,10 +75,11 @@ bool is_of_datasets(const Tranche& tranche, std::size_t datasets) {
            std::ranges::all_of(tranche.doubts, known, &Doubtful::dataset);
 }
 
-/// None where the text is no tranche's, whatever its checksum says.
-std::optional<Tranche> tranche_in(const std::string& text) {
+/// None where the text is no tranche's of so many datasets, whatever its checksum says.
+std::optional<Tranche> tranche_in(const std::string& text, std::size_t datasets) {
     try {
-        return tranche_from(json_or_discarded<Json>(text));
+        auto tranche = tranche_from(json_or_discarded<Json>(text));
+        if (is_of_datasets(tranche, datasets)) return tranche;
     } catch (const Json::exception&) {
     } catch (const Error&) {
     }
@@ -138,12 +139,13 @@ bool Workplace::take_line(const std::string& line, std::size_t number) {
     const auto before = sum_;
     const auto space = line.find(' ');
     const auto text = space == std::string::npos ? std::string() : line.substr(space + 1);
-    auto tranche = line_for(text) == line + "\n" ? tranche_in(text) : std::nullopt;
-    if (tranche && !is_of_datasets(*tranche, datasets_)) tranche.reset();
+    auto tranche = line_for(text) == line + "\n" ? tranche_in(text, datasets_) : std::nullopt;
     const auto fault =
         tranche ? fault_of(*tranche) : fmt::format("{}:{}: damaged", (folder_ / "journal").string(), number);
-    if (fault.empty()) finished_.push_back(std::move(*tranche));
-    if (fault.empty()) return true;
+    if (fault.empty()) {
+        finished_.push_back(std::move(*tranche));
+        return true;
+    }
     sum_ = before;
     notes_.push_back(fault + "; what was done from there on is made again");
     return false;
