@@ -45,7 +45,7 @@ std::string what_is_wanted(const Key& key) {
         std::string operator()(std::int64_t) const { return "a whole number" + range_of(key); }
         std::string operator()(double) const { return "a number" + range_of(key); }
         std::string operator()(const std::string&) const {
-            if (key.choices.empty()) return "text";
+            if (key.choices.empty()) return "text in UTF-8";
             return fmt::format("one of {}", fmt::join(key.choices, ", "));
         }
         std::string operator()(const std::vector<std::int64_t>&) const {
@@ -61,6 +61,17 @@ bool in_range(const Key& key, double value) {
 
 std::string scalar(const YAML::Node& node) {
     return node.IsScalar() ? node.Scalar() : std::string();
+}
+
+std::string quoted(const std::string& text) {
+    YAML::Emitter out;
+    out << YAML::DoubleQuoted << text;
+    return out.c_str();
+}
+
+/// False where it comes back changed: bytes that are no UTF-8, of which YAML's library takes what it does not write.
+bool can_be_written(const std::string& text) {
+    return YAML::Load(quoted(text)).Scalar() == text;
 }
 
 /// The node's value in the key's type; none where it is of another type or out of range.
@@ -83,10 +94,9 @@ std::optional<Value> parse(const Key& key, const YAML::Node& node) {
             if (node.IsNull()) return std::string();
             if (!node.IsScalar()) return std::nullopt;
             const auto& text = node.Scalar();
-            if (!key.choices.empty() &&
-                std::find(key.choices.begin(), key.choices.end(), text) == key.choices.end())
-                return std::nullopt;
-            return text;
+            const auto& known = key.choices;
+            const bool is_known = known.empty() || std::ranges::find(known, text) != known.end();
+            return is_known && can_be_written(text) ? std::optional<Value>(text) : std::nullopt;
         }
         std::optional<Value> operator()(const std::vector<std::int64_t>&) const {
             if (!node.IsSequence()) return std::nullopt;
@@ -114,11 +124,7 @@ std::string text_of(const Value& value) {
         std::string operator()(bool v) const { return v ? "true" : "false"; }
         std::string operator()(std::int64_t v) const { return std::to_string(v); }
         std::string operator()(double v) const { return fmt::format("{}", v); }
-        std::string operator()(const std::string& v) const {
-            YAML::Emitter out;
-            out << YAML::DoubleQuoted << v;
-            return out.c_str();
-        }
+        std::string operator()(const std::string& v) const { return quoted(v); }
         std::string operator()(const std::vector<std::int64_t>& v) const {
             return fmt::format("[{}]", fmt::join(v, ", "));
         }

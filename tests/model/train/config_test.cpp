@@ -115,6 +115,21 @@ TEST_F(Configs, WritesWhatItReads) {
     EXPECT_TRUE(config.differences(again).empty());
 }
 
+TEST_F(Configs, RefuseTextThatWouldComeBackChanged) {
+    for (const std::string broken :
+         {"/m\xE4rz", "\xEF\xBF\xBF", "a\xFF b"}) {  // Latin-1, a code that is no character, any byte
+        expect_refused("model: recogniser\ndata: " + broken + "\n",
+                       {"c.yaml:2", "data must be text in UTF-8"});
+        EXPECT_THROW(load("model: recogniser\n").override_with("data=" + broken), Error);
+    }
+    for (const std::string whole : {"/m\u00E4rz", "a\tb", "\\xE4", "\U0001F483"}) {
+        auto config = load("model: recogniser\n"), again = config;
+        config.override_with("data=" + whole);
+        again.load_text(config.yaml(), "again.yaml");
+        EXPECT_EQ(again.get<std::string>("data"), whole);
+    }
+}
+
 TEST_F(Configs, NameTheKindOfRecogniser) {
     const auto kind_of = [&](const std::string& text) {
         write_file(dir / "kind.yaml", text);
