@@ -313,7 +313,8 @@ void add_motion_options(CLI::App* command, ScoreOptions& options) {
         ->type_name("MOTIONS.h5");
     command
         ->add_option("--labels", options.labels,
-                     "Lines of a motion's name and its action, where names do not tell it as A001_0 does")
+                     "Lines of a motion's name and its action, where neither its attribute `label` nor its "
+                     "name (A001_0) tells it")
         ->type_name("FILE");
     add_generator_options(command, options);
     command->add_option("--window", request.real.window, "Frames of the windows that real clips are cut into")

@@ -22,8 +22,8 @@ std::pair<std::size_t, std::size_t> matrix(const hdf5::Reader& file, const std::
 std::vector<std::uint32_t> read_labels(const hdf5::Reader& file, const std::string& where) {
     if (!file.has("labels"))
         throw Error(
-            "{}: holds no 'labels', the class of every sample from 0 on; make it from motions whose names "
-            "tell their action, as A001_0, or add them",
+            "{}: holds no 'labels', the class of every sample from 0 on; make it from motions that tell "
+            "their action, by names like A001_0 or the attribute `label`, or add them",
             where);
     std::vector<std::uint32_t> labels;
     for (const auto label : file.read<std::int64_t>("labels")) {

@@ -1,4 +1,4 @@
-// Labels of motions whose names do not tell their action.
+// Labels of motions that do not tell their action themselves.
 #pragma once
 
 #include <filesystem>

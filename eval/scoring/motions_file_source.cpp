@@ -10,6 +10,7 @@
 #include "base/files/nearest_file.hpp"
 #include "base/hdf5/reader.hpp"
 #include "ingest/dataset/described_motions.hpp"
+#include "ingest/dataset/motions_file.hpp"
 #include "ingest/dataset/subjects.hpp"
 
 namespace actformer::eval {
@@ -37,6 +38,7 @@ class MotionsFileSource final : public MotionSource {
     void list();
     void describe();
     void check_shape(const hdf5::Shape& shape, const std::string& name);
+    std::optional<std::uint32_t> label_of(const std::string& name) const;
     std::vector<std::uint32_t> labels() const;
     void append(const std::string& name, std::uint32_t frames);
 
@@ -90,17 +92,22 @@ void MotionsFileSource::describe() {
     if (options_.labels.empty()) info_.classes = subjects->classes;
 }
 
-/// As given, or as all names tell; else none.
+/// As given, else as the motion's attribute or name tells.
+std::optional<std::uint32_t> MotionsFileSource::label_of(const std::string& name) const {
+    if (options_.labels.empty()) {
+        const auto told = ingest::read_label(file_, name, where_);
+        return told ? told : ingest::label_in(name);
+    }
+    const auto given = options_.labels.find(name);
+    if (given == options_.labels.end()) throw Error("{}: '{}' has no line in the labels given", where_, name);
+    return given->second;
+}
+
+/// None where one of the motions does not tell.
 std::vector<std::uint32_t> MotionsFileSource::labels() const {
     std::vector<std::uint32_t> labels;
     for (const auto& name : info_.names) {
-        auto label = ingest::label_in(name);
-        if (!options_.labels.empty()) {
-            const auto given = options_.labels.find(name);
-            if (given == options_.labels.end())
-                throw Error("{}: '{}' has no line in the labels given", where_, name);
-            label = given->second;
-        }
+        const auto label = label_of(name);
         if (!label) return {};
         labels.push_back(*label);
     }

@@ -177,8 +177,8 @@ class Sides {
                         request_.real.dataset.string());
         if (motions.labels.empty())
             throw Error(
-                "{}: the motions' names do not tell their action, as A001_0 does; name a file of labels with "
-                "--labels",
+                "{}: not every motion tells its action, by a name like A001_0 or the attribute `label`; "
+                "`score --labels` takes a file of them",
                 set.name);
     }
 

@@ -17,14 +17,18 @@ std::string public_name(const std::string& name, std::uint32_t label) {
     return fmt::format("{}{:03}", name.substr(0, numbered + 1), label + 1);
 }
 
+std::optional<std::uint32_t> read_label(const hdf5::Reader& file, const std::string& name,
+                                        const std::string& where) {
+    if (!file.has_attribute("label", name)) return {};
+    const auto label = file.attribute_numbers("label", name);
+    if (label.size() != 1 || label[0] < 0 || label[0] > std::numeric_limits<std::int32_t>::max())
+        throw Error("{}: '{}' has a label that is no number from 0", where, name);
+    return static_cast<std::uint32_t>(label[0]);
+}
+
 MotionDetails read_details(const hdf5::Reader& file, const std::string& name, const std::string& where) {
     MotionDetails details;
-    if (file.has_attribute("label", name)) {
-        const auto label = file.attribute_numbers("label", name);
-        if (label.size() != 1 || label[0] < 0 || label[0] > std::numeric_limits<std::int32_t>::max())
-            throw Error("{}: '{}' has a label that is no number from 0", where, name);
-        details.label = static_cast<std::uint32_t>(label[0]);
-    }
+    details.label = read_label(file, name, where);
     if (file.has_attribute("bone_length", name))
         details.bone_length = file.attribute_floats("bone_length", name);
     return details;

@@ -24,7 +24,11 @@ struct MotionDetails {
     std::vector<float> bone_length;      ///< (persons, joints) metres; empty: as of all motions in the file
 };
 
-/// The attributes `label` and `bone_length` of the array `name`. Throws Error, beginning with `where`, for a label that is none.
+/// The attribute `label` of the array `name`. Throws Error, beginning with `where`, for a label that is none.
+std::optional<std::uint32_t> read_label(const hdf5::Reader& file, const std::string& name,
+                                        const std::string& where);
+
+/// That and `bone_length`.
 MotionDetails read_details(const hdf5::Reader& file, const std::string& name, const std::string& where);
 
 /// Reads motions one at a time. Throws Error for a file that is not in the public layout.

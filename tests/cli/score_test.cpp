@@ -529,6 +529,16 @@ TEST_F(Score, TakesLabelsFromAFile) {
     const auto without = scored(one_person() + "--generated " + at("named.h5"));
     EXPECT_NEAR(with["fid_mean"]["mean"].get<double>(), without["fid_mean"]["mean"].get<double>(), 1e-6);
 
+    ingest::MotionsWriter labelled(dir / "labelled.h5"), beyond(dir / "beyond.h5");
+    for (unsigned i = 0; i < 8; ++i) {
+        labelled.add(fmt::format("walk{}", i), made_motion(60, 1, i), {.label = i % 2, .bone_length = {}});
+        beyond.add(fmt::format("A001_{}", i), made_motion(60, 1, i), {.label = 4000, .bone_length = {}});
+    }
+    labelled.finish();
+    beyond.finish();
+    EXPECT_EQ(scored(one_person() + "--generated " + at("labelled.h5"))["fid_mean"], without["fid_mean"]);
+    expect_refused(one_person() + "--generated " + at("beyond.h5"), {"beyond.h5", "4001"});
+
     const auto arguments = one_person() + "--generated " + at("plain.h5") + " --labels " + at("labels.txt");
     write_file(dir / "labels.txt", lines + "walk0 1\n");
     expect_refused(arguments, {"labels.txt", "line 10", "twice"});
