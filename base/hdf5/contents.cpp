@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/hdf5/checked_chunk.hpp"
 #include "base/hdf5/reader.hpp"
+#include "base/text/printable.hpp"
 
 namespace actformer::hdf5 {
 namespace {
@@ -18,8 +19,19 @@ std::string text_of(hid_t type, const Shape& shape) {
 }
 
 /// Every link below the root: "clip", "clip/label", ...
-herr_t add_link(hid_t, const char* path, const H5L_info_t* info, void* links) {
-    (*static_cast<std::map<std::string, H5L_type_t>*>(links))[path] = info->type;
+struct Links {
+    std::map<std::string, H5L_type_t> kinds;
+    std::string too_long;  ///< the path that ended the visit
+};
+
+/// The library calls this before it descends, and goes no further where it is not 0.
+herr_t add_link(hid_t, const char* path, const H5L_info_t* info, void* to) {
+    auto& links = *static_cast<Links*>(to);
+    if (is_long_path(path)) {
+        links.too_long = path;
+        return 1;
+    }
+    links.kinds[path] = info->type;
     return 0;
 }
 
@@ -191,16 +203,19 @@ std::string Reader::metadata(const std::string& array) const {
 }
 
 std::string Reader::contents_but(const std::string& without, const See& see) const {
-    std::map<std::string, H5L_type_t> links;
+    Links links;
     if (H5Lvisit(file_.get(), H5_INDEX_NAME, H5_ITER_INC, add_link, &links) < 0)
         fail("its list of contents cannot be read: damaged");
+    if (!links.too_long.empty())
+        fail("{} is a path of more than {} parts or {} bytes: not written by actformer",
+             in_quotes(links.too_long), most_path_parts, longest_path);
     Contents contents;
     const auto add_attributes_of = [&](const Handle& object, const std::string& path) {
         if (const auto fault = add_attributes(object.get(), path, contents); !fault.empty())
             fail("{}", fault);
     };
     add_attributes_of(Handle(H5Gopen2(file_.get(), "/", H5P_DEFAULT), H5Gclose), "");
-    for (const auto& [path, kind] : links) {
+    for (const auto& [path, kind] : links.kinds) {
         if (kind != H5L_TYPE_HARD) fail("'{}' is a link: not written by actformer", path);
         if (is_array(path)) {
             const auto array = open(path);

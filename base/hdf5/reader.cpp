@@ -9,6 +9,7 @@
 #include "base/hdf5/checked_chunk.hpp"
 #include "base/hdf5/opening.hpp"
 #include "base/hdf5/variable_texts.hpp"
+#include "base/text/printable.hpp"
 
 namespace actformer::hdf5 {
 namespace {
@@ -56,7 +57,8 @@ bool compressed(hid_t plan) {
 // Deflate makes no more of a byte. Of motion it makes two or three; much memory is taken for no more than a hundred.
 constexpr std::uint64_t most_compressed = 1032, most_of_much = 100, much = std::uint64_t{1} << 30;
 
-constexpr int most_links = 16;  // one behind the other
+constexpr int most_links = 16;     // one behind the other; the library follows no more
+constexpr int most_followed = 64;  // on the way to one array
 
 /// Where a link within the file leads, from the root.
 std::string target_of(const std::string& link, const std::string& to) {
@@ -86,6 +88,11 @@ std::optional<std::uint64_t> header_address(hid_t file, const char* name) {
 }
 
 }  // namespace
+
+bool is_long_path(std::string_view path) {
+    return path.size() > longest_path ||
+           std::ranges::count(path, '/') >= static_cast<std::ptrdiff_t>(most_path_parts);
+}
 
 Reader::Reader(const std::filesystem::path& path)
     : path_(path.string()), file_(open_to_read(path)), bytes_(std::filesystem::file_size(path)) {
@@ -124,7 +131,18 @@ bool Reader::has(const std::string& name) const {
 }
 
 /// The library follows no link into another file (see silence()); here they are named, also those that a link within the file leads to.
-void Reader::refuse_links_away(const std::string& name, int depth) const {
+void Reader::refuse_links_away(const std::string& name) const {
+    int followed = 0;
+    refuse_links_away(name, 0, followed);
+}
+
+/// Sees every link before the library follows it.
+void Reader::refuse_links_away(const std::string& name, int depth, int& followed) const {
+    if (is_long_path(name))
+        fail(
+            "{} is a path of more than {} parts or {} bytes, which is not followed; move the array nearer to "
+            "the top",
+            in_quotes(name), most_path_parts, longest_path);
     for (auto slash = name.find('/', 1);; slash = name.find('/', slash + 1)) {
         const auto part = name.substr(0, slash);
         H5L_info_t info{};
@@ -132,10 +150,14 @@ void Reader::refuse_links_away(const std::string& name, int depth) const {
         if (known && info.type >= H5L_TYPE_UD_MIN)
             fail("'{}' is a link into another file, which is not followed; copy the array into this one",
                  part);
-        if (known && info.type == H5L_TYPE_SOFT && depth < most_links && info.u.val_size <= bytes_) {
-            std::string to(info.u.val_size, '\0');
+        if (known && info.type == H5L_TYPE_SOFT && depth < most_links) {
+            if (++followed > most_followed)
+                fail("{} leads over more than {} links, which are not followed; copy the array there",
+                     in_quotes(name), most_followed);
+            // of a long one as much as tells that it is
+            std::string to(std::min(info.u.val_size, longest_path + 2), '\0');
             if (H5Lget_val(file_.get(), part.c_str(), to.data(), to.size(), H5P_DEFAULT) >= 0)
-                refuse_links_away(target_of(part, to.substr(0, to.find('\0'))), depth + 1);
+                refuse_links_away(target_of(part, to.substr(0, to.find('\0'))), depth + 1, followed);
         }
         if (slash == std::string::npos) return;
     }

@@ -17,6 +17,12 @@
 
 namespace actformer::hdf5 {
 
+/// What a path within a file may have, a link's target too: the library takes stack for every part, and time for every two of them.
+inline constexpr std::size_t most_path_parts = 32, longest_path = 4096;
+
+/// Whether a path has more of either.
+bool is_long_path(std::string_view path);
+
 /// A file to read. Every member throws Error, naming the file, for what is missing, of another shape, or damaged. No more
 /// memory is taken than the file's size accounts for, and nothing outside the file is read: external links, external storage and
 /// virtual arrays are refused.
@@ -103,7 +109,8 @@ class Reader {
 
     void refuse_own_without_checksum() const;
     Array open(const std::string& name) const;
-    void refuse_links_away(const std::string& name, int depth = 0) const;
+    void refuse_links_away(const std::string& name) const;
+    void refuse_links_away(const std::string& name, int depth, int& followed) const;
     void check_layout(Array& array) const;
     static bool has_checked_rows(const Array& array);
     void read_checked_rows(const Array& array, std::uint64_t first, std::span<float> values) const;

@@ -29,7 +29,10 @@ constexpr std::string_view zip_begin = "PK";
 constexpr const char* other_order = "numbers with their highest byte first; save it on another machine";
 constexpr std::size_t deepest_group = 8, most_entries = std::size_t{1} << 20;
 constexpr std::int64_t most_numbers = std::int64_t{1} << 40;
-constexpr std::uint64_t largest_text = std::uint64_t{4} << 30;
+
+// Inflated members keep their memory, and many may be the same bytes of the archive. All of them together are either that many bytes, or
+// that many times the archive: of weights deflate makes hardly less.
+constexpr std::uint64_t most_inflated = std::uint64_t{64} << 20, most_growth = 100;
 
 std::size_t size_of(Type type) {
     switch (type) {
@@ -188,41 +191,67 @@ void collect(const PickleValue& root, const Storages& storages, std::vector<Torc
 }
 
 /// A zip archive: NAME/data.pkl, and NAME/data/KEY for each storage.
-std::vector<TorchTensor> read_zip(std::string_view bytes, std::deque<std::vector<char>>& unpacked) {
-    std::map<std::string, ZipMember> members;
-    for (auto& member : zip_members(bytes)) members.emplace(member.name, member);
-    constexpr std::string_view pickle_name = "data.pkl";
-    const auto found = std::ranges::find_if(members, [&](const auto& one) {
-        return one.first == pickle_name || one.first.ends_with("/data.pkl");
-    });
-    if (found == members.end())
-        throw Error("a zip archive without data.pkl: not a file of torch.save; TorchScript is not read");
-    const auto folder = found->first.substr(0, found->first.size() - pickle_name.size());
-    const auto text_of = [&](const ZipMember& member) {
-        return within(member.name, [&] { return zip_text(member, unpacked.emplace_back(), largest_text); });
-    };
-    if (const auto order = members.find(folder + "byteorder");
-        order != members.end() && text_of(order->second) != "little")
-        throw Error("{}", other_order);
-    std::map<std::string, std::string_view> texts;
-    const auto storage = [&](const StorageId& id) {
-        const auto name = folder + "data/" + id.key;
-        const auto member = members.find(name);
-        if (member == members.end()) throw Error("no storage {} in the archive: damaged", in_quotes(id.key));
-        auto text = texts.find(name);
-        if (text == texts.end()) text = texts.emplace(name, text_of(member->second)).first;
-        if (text->second.size() < id.bytes())
+class Archive {
+  public:
+    Archive(std::string_view bytes, std::deque<std::vector<char>>& unpacked)
+        : unpacked_(unpacked), room_(std::max(most_inflated, most_growth * bytes.size())) {
+        for (auto& member : zip_members(bytes)) members_.emplace(member.name, member);
+    }
+
+    std::vector<TorchTensor> tensors() {
+        constexpr std::string_view pickle_name = "data.pkl";
+        const auto found = std::ranges::find_if(members_, [&](const auto& one) {
+            return one.first == pickle_name || one.first.ends_with("/data.pkl");
+        });
+        if (found == members_.end())
+            throw Error("a zip archive without data.pkl: not a file of torch.save; TorchScript is not read");
+        folder_ = found->first.substr(0, found->first.size() - pickle_name.size());
+        if (const auto order = members_.find(folder_ + "byteorder");
+            order != members_.end() && text_of(order->second) != "little")
+            throw Error("{}", other_order);
+        std::vector<TorchTensor> tensors;
+        within(found->first, [&] {
+            const Pickle pickle(text_of(found->second), limits());
+            collect(
+                pickle.root(), [&](const StorageId& id) { return storage(id); }, tensors);
+        });
+        return tensors;
+    }
+
+  private:
+    std::string_view storage(const StorageId& id) {
+        const auto name = folder_ + "data/" + id.key;
+        const auto member = members_.find(name);
+        if (member == members_.end()) throw Error("no storage {} in the archive: damaged", in_quotes(id.key));
+        if (member->second.size != id.bytes())
             throw Error("storage {} has {} bytes where {} numbers belong: damaged", in_quotes(id.key),
-                        text->second.size(), id.numbers);
-        return text->second.substr(0, id.bytes());
-    };
-    std::vector<TorchTensor> tensors;
-    within(found->first, [&] {
-        const Pickle pickle(text_of(found->second), limits());
-        collect(pickle.root(), storage, tensors);
-    });
-    return tensors;
-}
+                        member->second.size, id.numbers);
+        auto text = texts_.find(name);
+        if (text == texts_.end()) text = texts_.emplace(name, text_of(member->second)).first;
+        return text->second;
+    }
+
+    /// Inflates no more of it than the archive says that there is, and one byte, which tells that it is not so.
+    std::string_view text_of(const ZipMember& member) {
+        return within(member.name, [&] {
+            if (member.deflated && member.size > room_)
+                throw Error(
+                    "it would take {} MiB more than the whole archive accounts for: made to exhaust its "
+                    "readers; save it uncompressed if that is right",
+                    (member.size - room_) >> 20);
+            if (member.deflated) room_ -= member.size;
+            const auto text = zip_text(member, unpacked_.emplace_back(), member.size + 1);
+            if (text.size() != member.size) throw Error("longer than the archive says: damaged");
+            return text;
+        });
+    }
+
+    std::deque<std::vector<char>>& unpacked_;
+    std::uint64_t room_;  ///< bytes that may still be inflated
+    std::map<std::string, ZipMember> members_;
+    std::string folder_;
+    std::map<std::string, std::string_view> texts_;
+};
 
 /// Pickles one behind another.
 class Pickles {
@@ -355,7 +384,7 @@ TorchFile::TorchFile(std::string_view bytes) {
     if (bytes.starts_with(old_magic))
         tensors_ = read_old(bytes);
     else if (bytes.starts_with(zip_begin))
-        tensors_ = read_zip(bytes, unpacked_);
+        tensors_ = Archive(bytes, unpacked_).tensors();
     else if (is_html(bytes))
         throw Error("{}", html_in_place_of("weights"));
     else

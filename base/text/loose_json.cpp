@@ -1,19 +1,28 @@
 #include "base/text/loose_json.hpp"
 
-#include <fstream>
-#include <iterator>
+#include <unistd.h>
 
+#include <vector>
+
+#include "base/files/file.hpp"
 #include "base/text/json.hpp"
 
 namespace actformer::loose {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+constexpr std::uint64_t largest_file = std::uint64_t{256} << 20;
+
+}  // namespace
+
 nlohmann::ordered_json read(const std::filesystem::path& path) {
-    if (std::error_code ignored; !std::filesystem::is_regular_file(path, ignored))
+    if (std::error_code ignored;
+        !std::filesystem::is_regular_file(path, ignored) || ::access(path.c_str(), R_OK) != 0)
         return Json(Json::value_t::discarded);
-    std::ifstream file(path, std::ios::binary);
-    const std::string text(std::istreambuf_iterator<char>(file), {});
+    std::vector<char> scratch;
+    const auto text = read_text(path, scratch, largest_file);
     expect_shallow_json(text, path);
     return Json::parse(text, nullptr, false);
 }

@@ -141,6 +141,23 @@ TEST_F(Contents, WhatNoWriterOfOursMakesIsNamed) {
     }
 }
 
+TEST_F(Contents, GroupsFarDownAreRefusedBeforeTheyAreVisited) {
+    {
+        const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+        hdf5::Handle last(H5Gopen2(file.get(), "clip", H5P_DEFAULT), H5Gclose);
+        for (int i = 0; i < 40; ++i)
+            last = hdf5::Handle(H5Gcreate2(last.get(), "g", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+        ASSERT_GE(last.get(), 0);
+    }
+    try {
+        read();
+        FAIL() << "not refused";
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("file.h5: 'clip/g/g"), std::string::npos) << e.what();
+        EXPECT_NE(std::string(e.what()).find("more than 32 parts"), std::string::npos) << e.what();
+    }
+}
+
 TEST_F(Contents, AChunkThatIsNotWhatItsOwnChecksumSaysIsRefused) {
     auto bytes = read_file(path);
     const float number = 2000 * 0.5F;

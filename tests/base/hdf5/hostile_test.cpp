@@ -175,6 +175,48 @@ TEST_F(HostileFile, ExternalLinksAreRefusedByName) {
     EXPECT_FALSE(file.is_array("in a circle"));
 }
 
+TEST_F(HostileFile, LongPathsAreRefusedBeforeTheyAreFollowed) {
+    write(0);
+    std::string deep, shallow;
+    for (int i = 0; i < 200; ++i) deep += "/r";
+    for (int i = 0; i < 20; ++i) shallow += "/r";
+    const std::string wide = "/" + std::string(5000, 'x');
+    {
+        const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+        ASSERT_GE(H5Lcreate_hard(file.get(), "/", file.get(), "r", H5P_DEFAULT, H5P_DEFAULT), 0);
+        for (const auto& [name, to] :
+             {std::pair{"deep", deep + "/motion"}, {"wide", wide}, {"shallow", shallow + "/motion"}})
+            ASSERT_GE(H5Lcreate_soft(to.c_str(), file.get(), name, H5P_DEFAULT, H5P_DEFAULT), 0);
+    }
+    const hdf5::Reader file(path);
+    EXPECT_EQ(file.read<float>("shallow").size(), 4241U * 3);
+    for (const auto& name : {std::string("deep"), std::string("wide"), deep + "/motion", wide}) {
+        const auto why = refusal([&] { file.is_array(name); });
+        EXPECT_NE(why.find("file.h5: '/"), std::string::npos) << why;
+        EXPECT_NE(why.find("is a path of more than 32 parts or 4096 bytes"), std::string::npos) << why;
+        EXPECT_EQ(refusal([&] { file.read<float>(name); }), why);
+    }
+}
+
+TEST_F(HostileFile, LinksThatMultiplyAreNotFollowedForEver) {
+    write(0);
+    std::string all;
+    {
+        const hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
+        ASSERT_GE(H5Lcreate_hard(file.get(), "/", file.get(), "r", H5P_DEFAULT, H5P_DEFAULT), 0);
+        for (char name = 'a'; name <= 'o'; ++name) {  // each is seen again for every one behind it
+            all += std::string("/") + name;
+            ASSERT_GE(
+                H5Lcreate_soft("r", file.get(), all.substr(all.size() - 2).c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                0);
+        }
+    }
+    const hdf5::Reader file(path);
+    EXPECT_TRUE(file.is_array("a/b/c/d/motion"));
+    const auto why = refusal([&] { file.is_array(all + "/motion"); });
+    EXPECT_NE(why.find("leads over more than 64 links"), std::string::npos) << why;
+}
+
 TEST_F(HostileFile, AnArrayThatDeflatedToNextToNothingIsRefused) {
     const hsize_t rows = hsize_t{1} << 29, chunk = rows / 4;
     const hdf5::Handle plan(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);

@@ -1,8 +1,9 @@
-// Files of torch.save in its older form, made byte by byte: what they hold, and what must be refused. Files of PyTorch itself, zip archives
-// too, are in tests/model/import_test.cpp.
+// Files of torch.save, made byte by byte: what they hold, and what must be refused. Files of PyTorch itself are in
+// tests/model/import_test.cpp.
 #include "base/pytorch/torch_file.hpp"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cstring>
 
@@ -71,6 +72,61 @@ std::string old_file(const std::string& object, const std::vector<Stored>& stora
 }
 
 const Stored six{"7", 6, bytes_of<float>({1, 2, 3, 4, 5, 6})};
+
+std::string number(std::uint64_t value, int bytes) {
+    std::string out;
+    for (int b = 0; b < bytes; ++b) out += static_cast<char>(value >> (8 * b) & 255);
+    return out;
+}
+
+std::string deflate_raw(const std::string& text) {
+    z_stream stream{};
+    deflateInit2(&stream, 9, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
+    std::string out(deflateBound(&stream, text.size()), '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+    stream.avail_in = static_cast<uInt>(text.size());
+    stream.next_out = reinterpret_cast<Bytef*>(out.data());
+    stream.avail_out = static_cast<uInt>(out.size());
+    deflate(&stream, Z_FINISH);
+    out.resize(stream.total_out);
+    deflateEnd(&stream);
+    return out;
+}
+
+/// A zip archive of torch.save: its list, and what that says of each storage.
+class Zip {
+  public:
+    explicit Zip(const std::string& object) { add("data.pkl", file(object), false); }
+
+    /// One that lies in the archive, deflated or not, as many bytes as it is or as `said`.
+    void add(const std::string& name, const std::string& text, bool deflated, std::uint64_t said = 0) {
+        const auto packed = deflated ? deflate_raw(text) : text;
+        const auto size = said ? said : text.size();
+        const auto sum = crc32(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<uInt>(size));
+        last_ = number(deflated ? 8 : 0, 2) + number(0, 4) + number(sum, 4) + number(packed.size(), 4) +
+                number(size, 4);
+        at_ = members_.size();
+        list_name(name);
+        members_ += "PK\x03\x04" + number(20, 2) + number(0, 2) + last_ + number(name.size(), 2) +
+                    number(0, 2) + name + packed;
+    }
+
+    /// The last one once more, by another name.
+    void list_name(const std::string& name) {
+        list_ += "PK\x01\x02" + number(20, 2) + number(20, 2) + number(0, 2) + last_ +
+                 number(name.size(), 2) + number(0, 2 + 2 + 2 + 2 + 4) + number(at_, 4) + name;
+        ++count_;
+    }
+
+    std::string bytes() const {
+        return members_ + list_ + "PK\x05\x06" + number(0, 4) + number(count_, 2) + number(count_, 2) +
+               number(list_.size(), 4) + number(members_.size(), 4) + number(0, 2);
+    }
+
+  private:
+    std::string members_, list_, last_;
+    std::size_t at_ = 0, count_ = 0;
+};
 
 std::string fault_of(const std::string& bytes) {
     try {
@@ -168,6 +224,50 @@ TEST(TorchFile, RefusesTensorsBeyondTheirStorages) {
     expect_fault(old_file(dict({{"a", Tensor{.offset = -1}.pickled()}}), {six}), "begins at number -1");
     expect_fault(old_file(dict({{"a", Tensor{.shape = {-2, 3}}.pickled()}}), {six}), "shape or strides");
     expect_fault(old_file(dict({{"a", Tensor{.count = -6}.pickled()}}), {six}), "a storage of -6 numbers");
+}
+
+TEST(TorchFile, ReadsStoragesOfAnArchive) {
+    for (const bool deflated : {false, true}) {
+        Zip zip(dict(
+            {{"a", Tensor{}.pickled()}, {"b", Tensor{.offset = 5, .shape = {}, .strides = {}}.pickled()}}));
+        zip.add("data/7", six.bytes, deflated);
+        zip.add("byteorder", "little", deflated);
+        const auto bytes = zip.bytes();
+        const TorchFile torch(bytes);
+        ASSERT_EQ(torch.tensors().size(), 2U);
+        EXPECT_EQ(torch.tensors()[0].values(), (Floats{1, 2, 3, 4, 5, 6}));
+        EXPECT_EQ(torch.tensors()[1].values(), Floats{6});
+    }
+}
+
+TEST(TorchFile, InflatesNoMoreThanStoragesNeed) {
+    const std::string zeros(std::size_t{32} << 20, '\0'), object = dict({{"a", Tensor{}.pickled()}});
+    for (const bool deflated : {false, true}) {
+        Zip zip(object);
+        zip.add("data/7", zeros, deflated);
+        expect_fault(zip.bytes(), "storage '7' has 33554432 bytes where 6 numbers belong: damaged");
+    }
+    Zip short_one(object), lies(object);
+    short_one.add("data/7", six.bytes.substr(0, 20), true);
+    expect_fault(short_one.bytes(), "storage '7' has 20 bytes where 6 numbers belong: damaged");
+    lies.add("data/7", zeros, true, 24);
+    expect_fault(lies.bytes(), "data/7: longer than the archive says: damaged");
+}
+
+TEST(TorchFile, InflatesNoMoreThanTheArchiveAccountsFor) {
+    const int count = 6 << 20;
+    std::vector<std::pair<std::string, std::string>> tensors;
+    for (const auto* key : {"1", "2", "3"})
+        tensors.emplace_back(key, Tensor{.key = key, .count = count}.pickled());
+    const std::string zeros(std::size_t{4} * count, '\0');
+    Zip apart(dict({tensors[0], tensors[1]})), again(dict(tensors));
+    apart.add("data/1", zeros, true);
+    apart.list_name("data/2");
+    EXPECT_EQ(fault_of(apart.bytes()), "") << "48 MiB";
+    again.add("data/1", zeros, true);
+    again.list_name("data/2");
+    again.list_name("data/3");
+    expect_fault(again.bytes(), "data/3: it would take 8 MiB more than the whole archive accounts for");
 }
 
 TEST(TorchFile, RefusesWhatIsDamagedOrCutShort) {
