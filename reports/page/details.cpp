@@ -24,6 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t usual_frames = 60;  // a window's, where the scores do not tell
+constexpr std::size_t most_sides = 8;       // of a comparison; `actformer compare` makes two
 
 /// The classes of a row that have anything to show, and their places among them.
 struct Classes {
@@ -178,7 +179,10 @@ Thinning thinning(double full, double most_samples, double room) {
 /// Builds the page's data row by row; what rows share is made once.
 class Details {
   public:
-    Details(Measured& measured, const DetailOptions& options) : measured_(measured), options_(options) {}
+    Details(Measured& measured, const DetailOptions& options) : measured_(measured), options_(options) {
+        for (std::size_t i = 0; i < measured.rows.size(); ++i)
+            if (const auto of = measured.rows[i].comparison) sides_[*of].push_back(i);
+    }
 
     Json all() {
         out_ = {{"version", ACTFORMER_VERSION}, {"class_columns", class_columns()},
@@ -213,12 +217,11 @@ class Details {
         return out;
     }
 
-    /// Places of the rows of its comparison, itself among them; none where it is of no comparison.
+    /// Places of the rows of its comparison, itself among them; none where it is of no comparison, or of one that no page can show.
     std::vector<std::size_t> compared_with(const MeasuredRow& row) const {
-        std::vector<std::size_t> places;
-        for (std::size_t i = 0; row.comparison && i < measured_.rows.size(); ++i)
-            if (measured_.rows[i].comparison == row.comparison) places.push_back(i);
-        return places;
+        if (!row.comparison) return {};
+        const auto& sides = sides_.at(*row.comparison);
+        return sides.size() > most_sides ? std::vector<std::size_t>() : sides;
     }
 
     /// What cannot be read is told of, and the rest goes on.
@@ -343,6 +346,7 @@ class Details {
     DetailOptions options_;
     Thinning thinning_;
     Json out_;
+    std::map<std::size_t, std::vector<std::size_t>> sides_;  ///< rows of each comparison
     std::map<std::string, Projection> projections_;
     std::map<std::string, std::size_t> real_;  ///< among the motion sets
 };

@@ -22,20 +22,32 @@ void check_id(const YAML::Node& where, const std::string& id, const YamlPlace& p
         place.fail(where, fmt::format("a table cannot be called '{}': letters, digits, - and _", id));
 }
 
+/// `room`: figures that may still be read, of all tables.
+PaperTable read_own(const YAML::Node& node, const std::string& id, const YamlPlace& place,
+                    std::size_t& room) {
+    TableReader reader(node, place, id, room);
+    auto table = reader.read_own();
+    room = reader.room();
+    return table;
+}
+
 void add_own_table(std::vector<PaperTable>& tables, const YAML::Node& node, const std::string& id,
-                   const YamlPlace& place) {
+                   const YamlPlace& place, std::size_t& room) {
     check_id(node, id, place);
     place.expect_map(node, fmt::format("table '{}'", id));
     const auto found = std::ranges::find(tables, id, &PaperTable::id);
     const bool new_rows = found != tables.end() && node.size() == 1 && node["rows"];
-    if (found == tables.end())
-        tables.push_back(TableReader(node, place, id).read_own());
-    else if (new_rows || same_columns(*found, TableReader(node, place, id).read_own()))
-        TableReader(node, place, id).add_rows_to(*found);
-    else
+    if (found == tables.end()) {
+        tables.push_back(read_own(node, id, place, room));
+    } else if (new_rows || same_columns(*found, read_own(node, id, place, room))) {
+        TableReader reader(node, place, id, room);
+        reader.add_rows_to(*found);
+        room = reader.room();
+    } else {
         place.fail(node, fmt::format("there is a table '{}' with other columns: give this one another name, "
                                      "or just rows that it is to get",
                                      id));
+    }
 }
 
 }  // namespace
@@ -43,7 +55,10 @@ void add_own_table(std::vector<PaperTable>& tables, const YAML::Node& node, cons
 std::vector<PaperTable> with_own_tables(std::vector<PaperTable> tables, const YAML::Node& section,
                                         const YamlPlace& place) {
     place.expect_map(section, "tables");
-    for (const auto& item : section) add_own_table(tables, item.second, item.first.Scalar(), place);
+    if (section.size() > most_tables)
+        place.fail(section, fmt::format("{} tables; at most {}", section.size(), most_tables));
+    std::size_t room = most_figures;
+    for (const auto& item : section) add_own_table(tables, item.second, item.first.Scalar(), place, room);
     std::ranges::stable_sort(tables, {}, &PaperTable::order);
     return tables;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,15 +14,23 @@
 
 namespace actformer::reports {
 
+/// What a file of tables may have. Rows and tables that are others' again (YAML's aliases) take a few bytes there, and memory here.
+inline constexpr std::size_t most_tables = 1000, most_columns = 100, most_figures = 100'000;
+
 /// Turns the YAML of one table into a table.
 class TableReader {
     using Node = YAML::Node;
 
   public:
-    TableReader(const Node& root, const YamlPlace& place, std::string id) : place_(place), root_(root) {
+    /// `room`: figures that may be read.
+    TableReader(const Node& root, const YamlPlace& place, std::string id, std::size_t room = most_figures)
+        : place_(place), root_(root), room_(room) {
         table_.id = std::move(id);
         place_.expect_map(root_, "a table");
     }
+
+    /// What is left of it.
+    std::size_t room() const { return room_; }
 
     /// One of a paper, which says what it is.
     PaperTable read() {
@@ -45,12 +55,14 @@ class TableReader {
     void add_rows_to(PaperTable& table) {
         table_.columns = table.columns;
         read_rows();
+        std::map<std::string, std::size_t> places;
+        for (const auto& row : table.rows) places.emplace(row.name, places.size());
         for (auto& row : table_.rows) {
-            const auto found = std::ranges::find(table.rows, row.name, &PaperRow::name);
-            if (found == table.rows.end())
+            const auto found = places.find(row.name);
+            if (found == places.end())
                 table.rows.push_back(std::move(row));
             else if (const PaperRow blank{row.name, empty_figures()};
-                     row.figures != blank.figures && row.figures != found->figures)
+                     row.figures != blank.figures && row.figures != table.rows[found->second].figures)
                 place_.fail(root_["rows"],
                             fmt::format("{} has a row '{}' with other figures", table.id, row.name));
         }
@@ -63,7 +75,7 @@ class TableReader {
         return out;
     }
     void check_keys(const Node& map, const std::vector<std::string>& known) const {
-        std::vector<std::string> seen;
+        std::set<std::string> seen;
         for (const auto& item : map) {
             const auto key = item.first.Scalar();
             if (std::ranges::find(known, key) == known.end())
@@ -72,13 +84,11 @@ class TableReader {
             check_new(item.first, key, seen);
         }
     }
-    void check_new(const Node& where, const std::string& name, std::vector<std::string>& seen) const {
-        if (std::ranges::find(seen, name) != seen.end())
-            place_.fail(where, fmt::format("'{}' comes twice", name));
-        seen.push_back(name);
+    void check_new(const Node& where, const std::string& name, std::set<std::string>& seen) const {
+        if (!seen.insert(name).second) place_.fail(where, fmt::format("'{}' comes twice", name));
     }
     /// As a part of a cell's name.
-    void check_name(const Node& where, const std::string& name, std::vector<std::string>& seen) const {
+    void check_name(const Node& where, const std::string& name, std::set<std::string>& seen) const {
         if (name.empty() || name.find('/') != std::string::npos)
             place_.fail(where, fmt::format("'{}': a name must not be empty nor hold a /", name));
         check_new(where, name, seen);
@@ -121,25 +131,33 @@ class TableReader {
         const auto columns = needed("columns");
         place_.expect_list(columns, "columns");
         if (root_["metrics"]) expect_metrics(root_["metrics"]);
-        std::vector<std::string> seen, printed;
-        for (const auto& node : columns) {
-            place_.expect_map(node, "a column");
-            check_keys(node, {"dataset", "metrics"});
-            if (!node["dataset"] || !node["metrics"])
-                place_.fail(node, "a column must say dataset and metrics");
-            PaperColumns one;
-            one.dataset = place_.as<std::string>(node["dataset"], "dataset", "a text");
-            check_name(node, one.dataset, seen);
-            place_.expect_list(node["metrics"], "metrics");
-            for (const auto& name : node["metrics"]) {
-                one.metrics.push_back(metric(name));
-                printed.push_back(one.metrics.back().name);
-            }
-            if (one.metrics.empty()) place_.fail(node, "a column must have a metric");
-            table_.columns.push_back(std::move(one));
+        if (columns.size() == 0) place_.fail(columns, "a table must have columns");
+        if (columns.size() > most_columns)
+            place_.fail(columns,
+                        fmt::format("a table of {} columns; at most {}", columns.size(), most_columns));
+        std::set<std::string> seen;
+        for (const auto& node : columns) table_.columns.push_back(read_column(node, seen));
+        if (!root_["metrics"]) return;
+        std::vector<std::string> printed;
+        for (const auto& column : table_.columns)
+            for (const auto& metric : column.metrics) printed.push_back(metric.name);
+        check_keys(root_["metrics"], printed);
+    }
+    PaperColumns read_column(const Node& node, std::set<std::string>& seen) const {
+        place_.expect_map(node, "a column");
+        check_keys(node, {"dataset", "metrics"});
+        if (!node["dataset"] || !node["metrics"]) place_.fail(node, "a column must say dataset and metrics");
+        PaperColumns column;
+        column.dataset = place_.as<std::string>(node["dataset"], "dataset", "a text");
+        check_name(node, column.dataset, seen);
+        place_.expect_list(node["metrics"], "metrics");
+        std::set<std::string> metrics;
+        for (const auto& name : node["metrics"]) {
+            column.metrics.push_back(metric(name));
+            check_new(name, column.metrics.back().name, metrics);
         }
-        if (table_.columns.empty()) place_.fail(columns, "a table must have columns");
-        if (root_["metrics"]) check_keys(root_["metrics"], printed);
+        if (column.metrics.empty()) place_.fail(node, "a column must have a metric");
+        return column;
     }
     void expect_metrics(const Node& metrics) const {
         place_.expect_map(metrics, "metrics");
@@ -152,7 +170,8 @@ class TableReader {
     void read_rows() {
         const auto rows = needed("rows");
         place_.expect_map(rows, "rows");
-        std::vector<std::string> seen;
+        take_room(rows);
+        std::set<std::string> seen;
         for (const auto& item : rows) {
             PaperRow row;
             row.name = item.first.Scalar();
@@ -164,6 +183,15 @@ class TableReader {
             table_.rows.push_back(std::move(row));
         }
         if (table_.rows.empty()) place_.fail(rows, "a table must have rows");
+    }
+    void take_room(const Node& rows) {
+        std::size_t figures = 0;
+        for (const auto& column : table_.columns) figures += rows.size() * column.metrics.size();
+        if (figures > room_)
+            place_.fail(rows,
+                        fmt::format("more than {} figures, rows times metrics of all tables; leave rows out",
+                                    most_figures));
+        room_ -= figures;
     }
     std::vector<std::string> datasets() const {
         std::vector<std::string> out;
@@ -216,6 +244,7 @@ class TableReader {
 
     const YamlPlace& place_;
     Node root_;
+    std::size_t room_;
     PaperTable table_;
 };
 

@@ -101,10 +101,34 @@ TEST(PaperTables, TellFileAndLineOfWhatIsWrong) {
                    {"line 5", "no metric 'fid_meen'", "fid_mean"});
     expect_refused(head + "columns: [{dataset: A}]\nrows: {a: {}}\n", {"line 5", "dataset and metrics"});
     expect_refused(head + "columns: []\nrows: {a: {}}\n", {"line 5", "columns"});
+    expect_refused(head + "columns: [{dataset: A, metrics: [accuracy, fid_mean, accuracy]}]\nrows: {a: {}}\n",
+                   {"line 5", "'accuracy' comes twice"});
     expect_refused(head + columns, {"x/table9.yaml", "no 'rows'"});
     expect_refused(head + columns + "rows: {}\n", {"line 7", "rows"});
     expect_refused("title: [\n", {"x/table9.yaml: line"});
     expect_refused("just text", {"line 1", "must be a map"});
+}
+
+/// "[a0, a1, ...]", or with braces.
+std::string many(char open, std::size_t count, const std::string& begin, const std::string& end, char close) {
+    std::string out(1, open);
+    for (std::size_t i = 0; i < count; ++i) out += begin + std::to_string(i) + end + ", ";
+    return out + close;
+}
+
+TEST(PaperTables, OfMoreThanAnyPaperPrintsAreRefused) {
+    const auto table = [](const std::string& metrics, std::size_t rows) {
+        return head + "columns: [{dataset: A, metrics: &m [" + metrics +
+               "]}, {dataset: B, metrics: *m}]\nrows: {a: &a {}, " +
+               many('{', rows - 1, "r", ": *a", '}').substr(1) + "\n";
+    };
+    EXPECT_EQ(refusal(table("accuracy", 50'000)), "nothing is wrong");
+    expect_refused(table("accuracy", 50'001), {"x/table9.yaml: line 6", "more than 100000 figures"});
+    expect_refused(table("accuracy, diversity, fid_mean, fid_whole", 12'501),
+                   {"x/table9.yaml: line 6", "more than 100000 figures"});
+    expect_refused(head + "columns: " + many('[', 101, "{dataset: D", ", metrics: [accuracy]}", ']') +
+                       "\nrows: {a: {}}\n",
+                   {"line 5", "101 columns; at most 100"});
 }
 
 std::vector<PaperTable> with(const std::string& yaml) {
@@ -155,6 +179,27 @@ TEST(OwnTables, RefuseWhatWouldHideSomething) {
         EXPECT_EQ(why.find("sweep.yaml: "), 0U) << why;
         EXPECT_NE(why.find(words), std::string::npos) << yaml << ": " << why;
     }
+}
+
+TEST(OwnTables, OfMoreThanAnyReportShowsAreRefused) {
+    const auto refusal_of = [](const std::string& yaml) -> std::string {
+        try {
+            with(yaml);
+        } catch (const Error& e) {
+            return e.what();
+        }
+        return "nothing is wrong";
+    };
+    const auto table =
+        "&t {columns: [{dataset: A, metrics: [accuracy]}], rows: " + many('{', 1000, "r", ": {}", '}') + "}";
+    const auto tables = [&](std::size_t again) {
+        return "{t: " + table + ", " + many('{', again, "t", ": *t", '}').substr(1);
+    };
+    EXPECT_EQ(refusal_of(tables(99)), "nothing is wrong");
+    const auto why = refusal_of(tables(100));
+    EXPECT_NE(why.find("sweep.yaml: line 1: more than 100000 figures"), std::string::npos) << why;
+    EXPECT_NE(refusal_of(many('{', 1001, "t", ": {}", '}')).find("1001 tables; at most 1000"),
+              std::string::npos);
 }
 
 }  // namespace
