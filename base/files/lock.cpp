@@ -16,6 +16,12 @@ Descriptor open_lock(const std::filesystem::path& path) {
     return {path, O_RDWR | O_CREAT | O_NOFOLLOW};
 }
 
+/// Whether the open file is the one that was `named`: whoever held it last may have removed that in between.
+bool is_open(int fd, const struct stat& named) {
+    struct stat held {};
+    return ::fstat(fd, &held) == 0 && held.st_dev == named.st_dev && held.st_ino == named.st_ino;
+}
+
 }  // namespace
 
 FileLock::FileLock(const std::filesystem::path& path) : file_(open_lock(path)) {
@@ -24,16 +30,19 @@ FileLock::FileLock(const std::filesystem::path& path) : file_(open_lock(path)) {
 }
 
 std::optional<FileLock> FileLock::if_free(const std::filesystem::path& path) {
-    FileLock lock;
-    lock.file_ = open_lock(path);
-    if (lock.file_.get() < 0)
-        throw Error("{}: cannot be made or written: {}", path.string(), std::strerror(errno));
-    if (::flock(lock.file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return {};
-    return lock;
+    for (;;) {
+        FileLock lock;
+        lock.file_ = open_lock(path);
+        if (lock.file_.get() < 0)
+            throw Error("{}: cannot be made or written: {}", path.string(), std::strerror(errno));
+        if (::flock(lock.file_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return {};
+        struct stat named {};
+        if (::lstat(path.c_str(), &named) == 0 && is_open(lock.file_.get(), named)) return lock;
+    }
 }
 
 std::optional<FileLock> FileLock::on_folder_if_free(const std::filesystem::path& folder) {
-    for (;;) {  // whoever held it last may have removed the folder in between
+    for (;;) {
         std::error_code error;
         std::filesystem::create_directories(folder, error);
         if (error) throw Error("{}: no folder can be made there: {}", folder.string(), error.message());
@@ -42,12 +51,10 @@ std::optional<FileLock> FileLock::on_folder_if_free(const std::filesystem::path&
         if (lock.file_.get() >= 0 && ::flock(lock.file_.get(), LOCK_EX | LOCK_NB) != 0 &&
             errno == EWOULDBLOCK)
             return {};
-        struct stat held {
-        }, named{};
-        if (lock.file_.get() < 0 || ::fstat(lock.file_.get(), &held) != 0)
+        if (lock.file_.get() < 0)
             throw Error("{}: cannot be opened: {}", folder.string(), std::strerror(errno));
-        if (::stat(folder.c_str(), &named) == 0 && held.st_dev == named.st_dev && held.st_ino == named.st_ino)
-            return lock;
+        struct stat named {};
+        if (::stat(folder.c_str(), &named) == 0 && is_open(lock.file_.get(), named)) return lock;
     }
 }
 

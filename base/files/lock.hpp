@@ -15,7 +15,8 @@ class FileLock {
     /// Waits for whoever holds it. Where `path` cannot be made nobody is kept out.
     explicit FileLock(const std::filesystem::path& path);
 
-    /// None where another process holds it. Throws Error where `path` cannot be made.
+    /// None where another process holds it. Where one that held it has just removed the file, on a new one. Throws Error where `path`
+    /// cannot be made.
     static std::optional<FileLock> if_free(const std::filesystem::path& path);
 
     /// On a folder itself, which is made where there is none: no file of its own lies in it. None where another process holds it.

@@ -68,8 +68,9 @@ class Ingest {
 
     IngestSummary run() {
         const auto start = Clock::now();
+        if (is_taken(request_.out) && !fs::exists(request_.out / "ingest.json")) refuse_taken();
         settle_format();
-        Source source(request_.raw, format_.extensions(), format_.largest_file(), threads_);
+        Source source = open_source();
         summary_.seconds.walk = seconds_since(start);
         const auto wanted = request_line(source);
         const auto aside = workplace_of(request_.out);
@@ -110,11 +111,17 @@ class Ingest {
         return "nothing was done yet that could be kept";
     }
 
+    /// Without what this or an earlier run made, which may lie among the raw files.
+    Source open_source() const {
+        return {request_.raw, format_.extensions(), format_.largest_file(), threads_,
+                own_folders(request_.out)};
+    }
+
     /// Shows the format all files if it asks for that.
     void settle_format() {
         const auto wanted = format_.surveys();
         if (wanted != Format::Survey::nothing) {
-            Source source(request_.raw, format_.extensions(), format_.largest_file(), threads_);
+            Source source = open_source();
             wanted == Format::Survey::names ? survey_names(source) : survey_texts(source);
         }
         format_.settle();
@@ -161,10 +168,13 @@ class Ingest {
 
     /// OUT exists: fine if this very request made it.
     void take_over_finished(const std::string& wanted) {
-        if (!read_record(request_.out, checksum(wanted), summary_))
-            throw Error("{}: already there, and not from this command; remove it or choose another -o",
-                        request_.out.string());
+        if (!read_record(request_.out, checksum(wanted), summary_)) refuse_taken();
         if (request_.strict && !summary_.first_rejections.empty()) stop_at(summary_.first_rejections[0]);
+    }
+
+    [[noreturn]] void refuse_taken() const {
+        throw Error("{}: already there, and not from this command; remove it or choose another -o",
+                    request_.out.string());
     }
 
     /// For --strict, at a broken clip.

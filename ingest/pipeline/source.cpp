@@ -213,8 +213,11 @@ struct Found {
 /// by a link, its files have their own paths. Links to a folder that the given one lies in are not followed: what is beside it was not given.
 class FolderWalk {
   public:
-    FolderWalk(std::size_t given, const Extensions& extensions, std::vector<Found>& items)
-        : given_(given), extensions_(extensions), items_(items) {}
+    FolderWalk(std::size_t given, const Extensions& extensions, const std::vector<fs::path>& left_out,
+               std::vector<Found>& items)
+        : given_(given), extensions_(extensions), items_(items) {
+        for (const auto& folder : left_out) is_new(folder);
+    }
 
     void walk(const fs::path& folder) {
         const auto before = static_cast<std::ptrdiff_t>(items_.size());
@@ -258,7 +261,7 @@ class FolderWalk {
     const Extensions& extensions_;
     std::vector<Found>& items_;
     std::set<fs::path> links_;                  ///< to folders, still to be walked
-    std::set<std::pair<dev_t, ino_t>> walked_;  ///< folders
+    std::set<std::pair<dev_t, ino_t>> walked_;  ///< folders, or left out
 };
 
 /// Sizes and times of change; 0 for a file that vanished, which is rejected when it is read.
@@ -337,7 +340,7 @@ struct Source::State {
 };
 
 Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_view>& extensions,
-               std::uint64_t largest_file, unsigned threads)
+               std::uint64_t largest_file, unsigned threads, const std::vector<fs::path>& left_out)
     : state_(new State) {
     state_->largest = largest_file;
     state_->extensions.assign(extensions.begin(), extensions.end());
@@ -348,7 +351,7 @@ Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_v
         if (!fs::exists(status))
             throw Error("{}: no such file or folder{}", raw[i].string(), did_you_mean(raw[i]));
         if (fs::is_directory(status)) {
-            FolderWalk(i, state_->extensions, state_->items).walk(raw[i]);
+            FolderWalk(i, state_->extensions, left_out, state_->items).walk(raw[i]);
         } else {
             refuse_irregular(raw[i]);
             const bool archive = extension_of(raw[i].string(), state_->extensions) == 0;

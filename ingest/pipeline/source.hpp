@@ -62,9 +62,11 @@ class TextMemory {
 /// followed.
 class Source {
   public:
-    /// Of an archive, members beyond `largest_file` bytes come unreadable. `threads` look at the files, 0: one a core. Throws Error where a path is missing or neither folder, archive nor a file with one of `extensions`.
+    /// Of an archive, members beyond `largest_file` bytes come unreadable. `threads` look at the files, 0: one a core. What is in folders
+    /// of `left_out` is passed over. Throws Error where a path is missing or neither folder, archive nor a file with one of `extensions`.
     Source(const std::vector<std::filesystem::path>& raw, const std::vector<std::string_view>& extensions,
-           std::uint64_t largest_file = usual_largest_file, unsigned threads = 0);
+           std::uint64_t largest_file = usual_largest_file, unsigned threads = 0,
+           const std::vector<std::filesystem::path>& left_out = {});
     ~Source();
 
     /// The next file; false at the end. Throws Error naming the archive and member where an archive is broken.

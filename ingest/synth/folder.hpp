@@ -11,7 +11,8 @@ namespace actformer::ingest::synth {
 
 /// Makes it, with ORIGIN, which says that its files are stand-ins, and synth.json, which says what they were made from: those of another
 /// stand-in, seed or version must not be mixed with them. `made_by` is the command, as in "actformer synth ntu"; `clips` is given where
-/// what a file holds depends on how many clips there are. Throws Error where the folder holds such files, or cannot be made.
+/// what a file holds depends on how many clips there are. Throws Error where the folder holds such files, or any file without a
+/// synth.json, or an ORIGIN of other clips, and where it cannot be made.
 void claim_folder(const std::filesystem::path& folder, std::string_view made_by, std::uint64_t seed,
                   std::optional<std::uint64_t> clips = {});
 

@@ -6,6 +6,8 @@
 #include "tests/support/arrays.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/temp_dir.hpp"
+#include "tests/support/toy_dataset.hpp"
+#include "tests/support/tree.hpp"
 
 using namespace actformer;
 using namespace actformer::test;
@@ -40,6 +42,19 @@ TEST(IngestMotions, TakesBackWhatExportWritesToTheBit) {
         EXPECT_EQ(after.motion(*found).values, before.motion(i).values) << clip.name;
     }
     EXPECT_EQ(run_actformer("inspect --verify " + in(dir, "back")).exit, 0);
+}
+
+TEST(IngestMotions, ItsOutputMayLieAmongItsRawData) {
+    const TempDir dir;
+    std::filesystem::create_directories(dir / "raw");
+    ASSERT_EQ(run_actformer("export " + toy().string() + " -o " + in(dir, "raw/m.h5")).exit, 0);
+    const auto command = "ingest motions " + in(dir, "raw") + " -o " + in(dir, "raw/out");
+    ASSERT_EQ(run_actformer(command).exit, 0);
+    const auto made = tree(dir / "raw/out");
+    const auto again = run_actformer(command);
+    EXPECT_EQ(again.exit, 0);
+    EXPECT_NE(again.output.find("complete already"), std::string::npos) << again.output;
+    EXPECT_EQ(tree(dir / "raw/out"), made);
 }
 
 TEST(IngestMotions, ReadsAnArrayAsItsHelpSays) {

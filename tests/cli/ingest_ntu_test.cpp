@@ -318,6 +318,17 @@ TEST_F(IngestNtu, LeavesWhatOthersPutAtItsWorkingFolder) {
     EXPECT_EQ(read_file(dir / "out.partial/data/chapter"), "precious");
 }
 
+TEST_F(IngestNtu, MovesNothingByAListOfOthers) {
+    using namespace std::string_literals;
+    clip("S001C001P001R001A001", plain_clip());
+    write_file(dir / "home/docs/thesis.txt", "precious");
+    fs::create_directories(dir / "out/.partial/data/a");
+    fs::create_directory_symlink("../home/docs", dir / "out/a");
+    write_file(dir / "out/.partial/delivering", "\0a/thesis.txt"s);
+    actformer::test::expect_refused(ingest(), {"out/.partial/delivering: damaged", "or choose another -o"});
+    EXPECT_EQ(read_file(dir / "home/docs/thesis.txt"), "precious");
+}
+
 TEST_F(IngestNtu, RefusesToShareItsOutputWithAnotherRun) {
     clip("S001C001P001R001A001", plain_clip());
     fs::create_directories(out() + ".partial");

@@ -1,14 +1,32 @@
 #include "base/files/lock.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <functional>
+#include <utility>
 
 #include "base/error.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using actformer::FileLock;
 using actformer::test::TempDir;
+
+namespace {
+
+/// Done once, between the opening of a lock's file and its locking.
+thread_local std::function<void()> before_next_flock;
+
+}  // namespace
+
+/// In front of the system's.
+extern "C" int flock(int fd, int operation) noexcept {
+    if (const auto what = std::exchange(before_next_flock, nullptr)) what();
+    return static_cast<int>(::syscall(SYS_flock, fd, operation));
+}
 
 TEST(FileLock, KeepsOthersOutWhileItLives) {
     const TempDir dir;
@@ -49,6 +67,25 @@ TEST(FileLock, WaitsForAnotherProcessAndGoesWithIt) {
     ASSERT_EQ(waitpid(child, &status, 0), child);
     close(ready[0]);
     close(ready[1]);
+}
+
+TEST(FileLock, IsOfTheFileThatIsThereNow) {
+    const TempDir dir;
+    const auto path = dir / "lock";
+    before_next_flock = [&] { std::filesystem::remove(path); };
+    const auto alone = FileLock::if_free(path);
+    ASSERT_FALSE(before_next_flock) << "the system was not asked";
+    EXPECT_TRUE(alone);
+    EXPECT_TRUE(FileLock::is_held(path)) << "on a new file";
+    std::filesystem::remove(path);
+
+    std::optional<FileLock> others;
+    before_next_flock = [&] {  // another removes it and begins anew
+        std::filesystem::remove(path);
+        others = FileLock::if_free(path);
+    };
+    EXPECT_FALSE(FileLock::if_free(path)) << "two hold it";
+    EXPECT_TRUE(others);
 }
 
 TEST(FileLock, NamesAFolderThatIsNotThere) {

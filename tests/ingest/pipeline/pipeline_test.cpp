@@ -152,6 +152,12 @@ class TogetherFormat : public LineFormat {
     mutable bool gave_up_ = false;
 };
 
+/// Takes what an ingest makes for raw files.
+class GreedyFormat : public LineFormat {
+  public:
+    std::vector<std::string_view> extensions() const override { return {".lines", ".h5", ".json", ".csv"}; }
+};
+
 /// A file is made where the dataset is to be put, once its clips are done.
 class HinderedFormat : public LineFormat {
   public:
@@ -185,12 +191,15 @@ struct PipelineOnDevice : testing::Test {
 
     /// An ingest of more than one tranche that stops in the second: the first is kept.
     void run_until_it_stops() {
+        LineFormat stopped;
+        run_until_it_stops(stopped);
+    }
+    void run_until_it_stops(LineFormat& stopped, const char* out = "out") {
         for (int i = 0; i < 5000; ++i)
             write_file(dir / fmt::format("raw/{:04}.lines", i), fmt::format("n{} 1 2\n", i));
         write_file(dir / "raw/z.lines", many("z", 300) + "stop\n" + many("y", 20));
-        LineFormat stopped;
         stopped.stops = true;
-        EXPECT_THROW(run(stopped), Error);
+        EXPECT_THROW(run(stopped, out), Error);
     }
 
     /// Names and contents of all files below `folder`.
@@ -287,6 +296,25 @@ TEST_F(PipelineOnDevice, StopsInTheMiddleOfAFileAndComesToTheSameBytes) {
     run(whole, "whole");
     EXPECT_EQ(run(resumed).resumed_files, 4096U);
     EXPECT_EQ(contents(dir / "out"), contents(dir / "whole"));
+}
+
+TEST_F(PipelineOnDevice, ItsOwnOutputIsNoRawData) {
+    GreedyFormat stopped, whole, resumed, again;
+    run_until_it_stops(stopped, "raw/out");
+    ASSERT_TRUE(fs::exists(dir / "raw/out.partial/data/shard-00000.h5"));
+    EXPECT_EQ(run(resumed, "raw/out").resumed_files, 4096U);
+    EXPECT_TRUE(run(again, "raw/out").was_complete);
+    const auto made = contents(dir / "raw/out");
+    fs::remove_all(dir / "raw/out");
+    run(whole, "whole");
+    EXPECT_EQ(made, contents(dir / "whole"));
+}
+
+TEST_F(PipelineOnDevice, RawFilesInTheWayOfTheOutputAreRefused) {
+    write_file(dir / "raw/a.lines", "x 1 2\n");
+    LineFormat format;
+    const auto why = error_of([&] { run(format, "raw"); });
+    EXPECT_NE(why.find("raw: already there, and not from this command"), std::string::npos) << why;
 }
 
 TEST_F(PipelineOnDevice, WhatNoIngestMadeIsNotWorkedInNorRemoved) {
@@ -400,18 +428,25 @@ TEST_F(PipelineOnDevice, FlippedBytesInTheListOfWhatWasBeingPutInPlaceAreNoticed
     run_until_it_stops();
     fs::rename(dir / "out.partial", dir / "kept");
     const std::string shard = "shard-00000.h5";
-    write_file(dir / "kept/delivering", '\0' + shard);
-    flip_and_read("delivering", dir / "kept/delivering", flips_to_make(2), {shard}, [&]() -> FlipOutcome {
-        fs::remove_all(dir / "out");
-        fs::create_directory(dir / "out");
-        fs::copy(dir / "kept", dir / "out/.partial", fs::copy_options::recursive);
-        fs::rename(dir / "out/.partial/data" / shard, dir / "out" / shard);
-        LineFormat resumed;
-        const auto summary = run(resumed);
-        std::string all;
-        for (const auto& [name, sum] : contents(dir / "out")) all += name + " " + sum + "\n";
-        return {{}, !summary.made_again.empty(), all};
-    });
+    write_file(dir / "kept/delivering", checksum('\0' + shard) + '\0' + shard);
+    flip_and_read("delivering", dir / "kept/delivering", flips_to_make(2), {"delivering"},
+                  [&]() -> FlipOutcome {
+                      fs::remove_all(dir / "out");
+                      fs::create_directory(dir / "out");
+                      fs::copy(dir / "kept", dir / "out/.partial", fs::copy_options::recursive);
+                      fs::rename(dir / "out/.partial/data" / shard, dir / "out" / shard);
+                      LineFormat resumed;
+                      try {
+                          const auto summary = run(resumed);
+                          std::string all;
+                          for (const auto& [name, sum] : contents(dir / "out"))
+                              all += name + " " + sum + "\n";
+                          return {{}, !summary.made_again.empty(), all};
+                      } catch (const Error& e) {
+                          EXPECT_TRUE(fs::exists(dir / "out" / shard)) << "it stays";
+                          return {std::string(e.what()) + "\n", false, {}};
+                      }
+                  });
 }
 
 TEST_F(PipelineOnDevice, ADamagedRecordOfAFinishedIngestIsNamed) {

@@ -78,6 +78,19 @@ TEST_F(Files, LinkedFoldersAreFollowedAndCirclesEnd) {
                                                 "c/empty.skeleton"}));
 }
 
+TEST_F(Files, OfFoldersLeftOutAreNotThere) {
+    fs::create_directory_symlink("../b", dir / "raw/a/link");
+    fs::create_directory_symlink("raw/c", dir / "c");
+    const std::vector<std::vector<fs::path>> given{{dir / "raw"},
+                                                   {dir / "raw/a", dir / "raw/b", dir / "raw/c"}};
+    for (const auto& raw : given) {
+        Source source(raw, {".skeleton"}, usual_largest_file, 1, {dir / "raw/b", dir / "c", dir / "gone"});
+        std::vector<std::string> stems;
+        for (RawFile file; source.next_name(file);) stems.push_back(file.stem);
+        EXPECT_EQ(stems, std::vector<std::string>{"one"}) << raw.size();
+    }
+}
+
 TEST_F(Files, WhatIsNoRegularFileIsSkippedByName) {
     ASSERT_EQ(::mkfifo((dir / "raw/b/pipe.skeleton").c_str(), 0600), 0);
     fs::create_symlink(dir / "raw/b/pipe.skeleton", dir / "raw/b/link.skeleton");

@@ -29,6 +29,7 @@
 #include "ingest/synth/rotation_vector.hpp"
 #include "ingest/synth/smpl/smpl_motion.hpp"
 #include "ingest/synth/stand_in.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/temp_dir.hpp"
 
 namespace actformer::ingest::synth {
@@ -111,6 +112,56 @@ TEST_F(StandIns, AreTheSameForAnyNumberOfThreadsAndNotForAnotherSeed) {
         EXPECT_NO_THROW(one.make({dir / fs::path(fmt::format("{}-6-1-1", one.name)), 6, 1, 1, {}}))
             << "made again";
     }
+}
+
+TEST_F(StandIns, AreNotMadeAmongFilesOfOthers) {
+    const auto expect_refused = [&](const std::string& name, const std::string& file, const auto& make) {
+        const fs::path folder = dir / fs::path(name + "-" + file.substr(0, 4));
+        test::write_file(folder / file, "precious");
+        const auto why = test::error_of([&] { make(folder); });
+        EXPECT_NE(why.find(file), std::string::npos) << name << ": " << why;
+        EXPECT_NE(why.find("choose another -o"), std::string::npos) << name << ": " << why;
+        EXPECT_EQ(files_in(folder), (std::map<std::string, std::string>{{file, "precious"}})) << name;
+    };
+    for (const auto* file : {"babel_v1.0_release/train.json", "info/names.txt", "ORIGIN"}) {
+        for (const auto& one : stand_ins())
+            expect_refused(std::string(one.name), file, [&](const auto& folder) {
+                one.make({folder, 2, 1, 1, {}});
+            });
+        expect_refused("ntu", file, [](const auto& folder) { synthesise_ntu({folder, 2, 1, {8}, 1}); });
+    }
+    fs::create_directories(dir / "links");
+    fs::create_directory_symlink("../babel-babe/babel_v1.0_release", dir / "links/babel_v1.0_release");
+    const auto why = test::error_of([&] { stand_in("babel").make({dir / "links", 2, 1, 1, {}}); });
+    EXPECT_NE(why.find("links: holds files that no synth left, as babel_v1.0_release;"), std::string::npos)
+        << why;
+}
+
+TEST_F(StandIns, GoOnAfterAnyStart) {
+    const auto right = made("ntu13", 2);
+    const std::vector<std::vector<const char*>> kept{
+        {}, {"synth.json"}, {"ORIGIN"}, {"synth.json", "ORIGIN"}, {"synth.json.partial"}};
+    for (const auto& files : kept) {
+        const fs::path folder = dir / fs::path(fmt::format("killed {}", fmt::join(files, " ")));
+        fs::create_directories(folder / "ntu_vibe");
+        for (const auto* file : files)
+            test::write_file(folder / file, right.contains(file) ? right.at(file) : "cut");
+        stand_in("ntu13").make({folder, 2, 1, 1, {}});
+        EXPECT_EQ(files_in(folder), right) << folder;
+    }
+}
+
+TEST_F(StandIns, LeaveAnotherOrigin) {
+    const auto right = made("ntu13", 2);
+    const auto folder = dir / "ntu13-2-2-1";
+    for (const std::string said : {"synthetic\n", "recorded by my camera\n", ""}) {
+        test::write_file(folder / "ORIGIN", said);
+        const auto why = test::error_of([&] { stand_in("ntu13").make({folder, 2, 1, 1, {}}); });
+        EXPECT_NE(why.find("ORIGIN: does not say stand-in"), std::string::npos) << why;
+        EXPECT_EQ(test::read_file(folder / "ORIGIN"), said);
+    }
+    fs::remove(folder / "ORIGIN");
+    EXPECT_EQ(made("ntu13", 2), right) << "where there is none it is written";
 }
 
 TEST_F(StandIns, SayThatTheyAreStandInsBeforeTheFirstClipIsDone) {
