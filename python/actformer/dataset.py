@@ -160,7 +160,8 @@ class Dataset:
         """Open: a process of its own has a file of its own, as HDF5 does not share them."""
         if self._open is None or self._open[:2] != (os.getpid(), shard):
             self.close()
-            self._open = (os.getpid(), shard, open_hdf5(self.folder / self._shards[shard]))
+            file = open_hdf5(self.folder / self._shards[shard], "the whole dataset, or ingest the raw data again")
+            self._open = (os.getpid(), shard, file)
         return self._open[2]
 
     def _read_clips(self, shard: int) -> Iterator[Clip]:
@@ -192,6 +193,8 @@ def _header(folder: Path) -> Dict[str, Any]:
         inside = sorted(path.parent for path in folder.glob("*/dataset.json"))
         if inside:
             raise Error(f"{folder}: holds {len(inside)} datasets; open one at a time, as in {inside[0]}")
+        if folder.is_file():
+            raise Error(f"{folder}: a file; give a folder that actformer ingest made")
         raise Error(f"{folder}: no dataset (no dataset.json in it); make one with actformer ingest")
     path = folder / "dataset.json"
     header = read_json(path, "a folder that actformer ingest made")

@@ -43,7 +43,7 @@ def read_features(path: AnyPath) -> Features:
     True
     """
     where = Path(path)
-    with open_hdf5(where) as file:
+    with open_hdf5(where, "the features that actformer features made") as file:
 
         def array(name: str) -> Any:
             return file[name][()] if name in file else None

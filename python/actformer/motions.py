@@ -39,7 +39,7 @@ class Motions:
 
     def __init__(self, path: AnyPath, representation: str = "limb") -> None:
         self.path = Path(path)
-        self._file = open_hdf5(self.path)
+        self._file = open_hdf5(self.path, "a motions file, as actformer generate and export make them")
         try:
             self._read_head(representation)
         except BaseException:

@@ -198,6 +198,7 @@ class Mistakes(unittest.TestCase):
     def test_datasets(self):
         self.refused(lambda: Dataset("nowhere"), "nowhere", "actformer ingest")
         self.refused(lambda: Dataset("ntu"), "holds 2 datasets", "ntu/ntu-1p")
+        self.refused(lambda: Dataset("motions.h5"), "motions.h5: a file; give a folder that actformer ingest made")
         self.refused(lambda: Dataset("ntu/ntu-1p").clips("xsub/tets"), "xsub/tets", "did you mean 'xsub/test'")
         self.refused(lambda: Dataset("ntu/ntu-1p").clips("q"), "there are all, xsub/")
         self.refused(lambda: Dataset("ntu/ntu-1p")["S1"], "no clip is called 'S1'")
@@ -230,6 +231,9 @@ class Mistakes(unittest.TestCase):
 
     def test_motions(self):
         self.refused(lambda: Motions("ntu/ntu-1p/dataset.json"), "no HDF5 file")
+        self.refused(lambda: Motions("ntu/ntu-1p"), "ntu/ntu-1p: a dataset, which Dataset('ntu/ntu-1p') opens; give a motions file")
+        self.refused(lambda: Motions("ntu"), "ntu: a folder; give a motions file")
+        self.refused(lambda: Motions("nowhere.h5"), "nowhere.h5: no such file; give a motions file")
         self.refused(lambda: Motions("motions.h5")["A001"], "no motion is called 'A001'")
         with h5py.File("bare.h5", "w") as file:
             file["A001_0"] = np.full((3, 4, 5), 0.3, np.float32)
@@ -260,7 +264,13 @@ class Mistakes(unittest.TestCase):
     def test_scores_and_features(self):
         self.refused(lambda: read_scores("ntu/ntu-1p/dataset.json"), "no scores")
         self.refused(lambda: read_scores("nowhere.json"), "no such file", "actformer score")
+        self.refused(lambda: read_scores("motions.h5"), "motions.h5: an HDF5 file, and JSON is expected", "actformer score")
+        with open("noise.json", "wb") as file:
+            file.write(b"\xff\xfe")
+        self.refused(lambda: read_scores("noise.json"), "noise.json: no text in UTF-8", "actformer score")
+        self.refused(lambda: read_scores("raw"), "raw: a folder; give the scores", "actformer score")
         self.refused(lambda: read_features("motions.h5"), "actformer features")
+        self.refused(lambda: read_features("raw"), "raw: a folder; give the features", "actformer features")
         if CAN_TRAIN:
             self.refused(lambda: read_scores("scores.json")["fid_maen"], "did you mean 'fid_mean'")
 
