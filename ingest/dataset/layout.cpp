@@ -7,6 +7,7 @@ namespace {
 template <typename Use>
 void for_each_place(const Motion& shape, const Use& use) {
     std::size_t place = 0;
+    if (shape.values.empty()) return;  // whatever extents the others have
     for (std::size_t p = 0; p < shape.persons; ++p)
         for (std::size_t d = 0; d < shape.numbers; ++d)
             for (std::size_t t = 0; t < shape.frames; ++t)
@@ -19,6 +20,7 @@ void for_each_place(const Motion& shape, const Use& use) {
 std::vector<float> with_last_axes_swapped(std::span<const float> values, std::size_t channels,
                                           std::size_t rows, std::size_t columns) {
     std::vector<float> swapped(values.size());
+    if (values.empty()) return swapped;  // whatever extents the others have
     const float* from = values.data();
     for (std::size_t c = 0; c < channels; ++c)
         for (std::size_t r = 0; r < rows; ++r)

@@ -99,9 +99,10 @@ std::vector<Clip> read_clips(const std::filesystem::path& path, const DatasetHea
     for (const auto& field : header.fields) fields.push_back(file.read_strings("clip/" + field));
 
     const auto n = names.size();
-    bool fits = offsets.size() == n && lengths.size() == n && labels.size() == n;
+    bool fits = offsets.size() == n && lengths.size() == n && labels.size() == n &&
+                file.shape("clip/bone_length") == hdf5::Shape{n, header.persons, header.topology.joints()};
     for (const auto& field : fields) fits = fits && field.size() == n;
-    if (!fits) throw Error("{}: the columns of 'clip' differ in length: damaged", path.string());
+    if (!fits) throw Error("{}: the columns of 'clip' do not fit each other: damaged", path.string());
 
     std::vector<Clip> clips(n);
     for (std::size_t i = 0; i < n; ++i) {

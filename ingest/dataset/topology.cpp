@@ -24,6 +24,8 @@ void Topology::check(const std::string& where) const {
     const auto k = static_cast<int>(joints());
     if (k == 0 || names.size() != parents.size())
         throw Error("{}: {} joint names for {} parents; give one name a joint", where, names.size(), k);
+    if (joints() > most_joints)
+        throw Error("{}: {} joints, and a body may have {}", where, joints(), most_joints);
     if (parents[0] != -1) throw Error("{}: joint 0 ({}) must be the root, with parent -1", where, names[0]);
     for (int j = 1; j < k; ++j)
         if (parents[j] < 0 || parents[j] >= k || parents[j] == j)

@@ -8,6 +8,9 @@
 
 namespace actformer::ingest {
 
+/// Of a body. Markers, fingers and faces fit in.
+inline constexpr std::size_t most_joints = 4096;
+
 /// Joints of a tree. Joint 0 is the root; joints may come in any order otherwise.
 struct Topology {
     std::vector<std::string> names;
@@ -18,7 +21,7 @@ struct Topology {
     /// Every joint after its parent.
     std::vector<std::uint32_t> order() const;
 
-    /// Throws Error, beginning with `where`, unless this is one tree rooted at joint 0 with distinct names.
+    /// Throws Error, beginning with `where`, unless this is one tree of at most `most_joints`, rooted at joint 0, with distinct names.
     void check(const std::string& where) const;
 
     bool operator==(const Topology&) const = default;

@@ -15,7 +15,6 @@ namespace {
 
 using kernels::Channel;
 
-constexpr std::size_t most_joints = 4096;
 constexpr double largest = 1e9;  // of numbers: what follows from them then stays finite in float32
 
 std::optional<Channel> channel_named(std::string_view word) {

@@ -14,7 +14,6 @@ namespace actformer::ingest {
 namespace {
 
 constexpr std::uint64_t largest_file = std::uint64_t{16} << 20;
-constexpr std::size_t most_joints = 4096;
 
 int parent_in(const YAML::Node& node, const std::vector<std::string>& names) {
     const auto text = node.IsNull() ? std::string("-1") : node.as<std::string>();
