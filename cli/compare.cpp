@@ -24,6 +24,8 @@
 #include "cli/sweep_jobs.hpp"
 #include "eval/metrics/interval.hpp"
 #include "eval/metrics/metric.hpp"
+#include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/own_kind.hpp"
 #include "reports/page/measured.hpp"
 #include "reports/page/tables.hpp"
 
@@ -54,6 +56,17 @@ struct Compared {
 /// Weights name their method; motions do not.
 bool holds_motions(const fs::path& path) {
     return fs::is_regular_file(path) && !hdf5::Reader(path).has_attribute("model");
+}
+
+/// Before anything is scored.
+void check_inputs(const CompareOptions& options) {
+    for (const auto& path : {options.a, options.b}) {
+        const auto kind = ingest::own_kind(path);
+        if (!kind.empty() && kind != ingest::own::generator && kind != ingest::own::training)
+            throw Error("{}: {}; a generator (a training or weights) or a motions file is expected",
+                        path.string(), kind);
+    }
+    ingest::Dataset(ingest::one_dataset_at(options.real)).split(options.split);
 }
 
 /// Without the name that the command which failed begins its line with.
@@ -239,7 +252,7 @@ void add_table(reports::Sweep& sweep, const std::vector<Compared>& all, const fs
 
 /// A folder that holds something else would lose it, or be taken for the comparison.
 void refuse_other_than_comparisons(const fs::path& out) {
-    refuse_other_folders(out);
+    if (!fs::exists(out / "results.json")) ingest::refuse_other_folder(out, "a comparison");
     if (!fs::exists(out / "results.json")) {
         if (fs::exists(out / "report.html"))
             throw Error("{}: holds a report.html, and no comparison; choose another -o", out.string());
@@ -277,6 +290,7 @@ reports::SweepEvents events_told(const fs::path& out) {
 }
 
 void run(const CompareOptions& options) {
+    check_inputs(options);
     refuse_a_mixed_pair(options);
     const auto out = fs::absolute(options.out).lexically_normal();
     refuse_other_than_comparisons(out);

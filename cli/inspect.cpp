@@ -7,7 +7,6 @@
 
 #include "base/error.hpp"
 #include "base/files/nearest_file.hpp"
-#include "base/hdf5/reader.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"
@@ -54,16 +53,18 @@ void print_text(const ingest::Dataset& dataset, bool list_classes) {
     std::uint64_t size = 0;
     for (const auto& shard : dataset.shards()) size += shard.bytes;
     say("{} ({})\n", dataset.folder().string(), header.name);
-    say("  {} of {}, {} with none; {} joints in {}, {}, {:g} frames a second\n",
+    say("  {} of {}, {} without a clip; {} joints in {}, {}, {:g} frames a second\n",
         counted(dataset.clips().size(), "clip"), counted(counts.size(), "class"),
         std::count(counts.begin(), counts.end(), 0U), header.topology.joints(), header.representation.name(),
         counted(header.persons, "person"), header.fps);
     say("  {} ({} to {} a clip, median {}) in {}, {}\n", counted(lengths.total, "frame"), lengths.shortest,
         lengths.longest, lengths.median, counted(dataset.shards().size(), "shard"), bytes(size));
     if (const auto origin = header.origin.text(); !origin.empty()) say("  {}\n", origin);
+    constexpr double tallest = 4;
     if (const auto height = ingest::body_height(dataset))
-        say("  bodies about {:.2f} m tall{}\n", height->metres,
-            height->axis == 'y' ? "" : fmt::format(", along {}: they lie, or y is not up", height->axis));
+        say("  about {:.2f} m from the lowest joint to the highest{}{}\n", height->metres,
+            height->axis == 'y' ? "" : fmt::format(", along {}: bodies lie, or y is not up", height->axis),
+            height->metres > tallest ? "; ingest in metres, with --scale" : "");
     for (const auto& remark : dataset.remarks()) say("  {}\n", remark);
     for (const auto& split : header.splits)
         say("  split {:<14} {}\n", split.name, counted(dataset.split(split.name).size(), "clip"));
@@ -105,8 +106,6 @@ Json to_json(const ingest::Dataset& dataset) {
 
 /// A motions file, as `generate` and `export` make them.
 Json motions_json(const std::string& path) {
-    if (const hdf5::Reader reader(path); reader.has_attribute("model") || reader.has_attribute("kind"))
-        throw Error("{}: a network's weights; inspect takes datasets and motions files", path);
     const ingest::DescribedMotions file(path);
     const auto& subjects = file.subjects();
     std::set<std::uint32_t> labels, lengths;

@@ -18,6 +18,7 @@
 #include "cli/say_json.hpp"
 #include "cli/shipped_option.hpp"
 #include "cli/sweep_jobs.hpp"
+#include "ingest/dataset/own_kind.hpp"
 #include "reports/sweep/run.hpp"
 #include "reports/sweep/split_check.hpp"
 
@@ -157,7 +158,7 @@ void refuse_what_cannot_be_done(const reports::Plan& plan, const fs::path& file)
 void run(SweepOptions options) {
     if (options.program.empty()) options.program = (program_folder() / "actformer").string();
     options.out = fs::absolute(options.out).lexically_normal();
-    refuse_other_folders(options.out);
+    ingest::refuse_other_folder(options.out, ingest::own::sweep);
     const auto sweep = reports::read_sweep(options.file);
     const SweepJobs jobs(options.program, options.out);
     auto plan = reports::make_plan(sweep, options.file.parent_path(), jobs);

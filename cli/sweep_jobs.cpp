@@ -14,7 +14,6 @@
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
 #include "ingest/synth/stand_in.hpp"
-#include "reports/page/training.hpp"
 #include "reports/sweep/plan.hpp"
 
 namespace actformer::cli {
@@ -121,13 +120,6 @@ std::string SweepJobs::run(const Job& job, const std::filesystem::path& log) con
     return {};
 }
 
-void refuse_other_folders(const std::filesystem::path& out) {
-    if (exists(out / "results.json")) return;
-    const char* held = exists(out / "dataset.json") ? "a dataset" : nullptr;
-    if (!held && training_row(out)) held = "a training";
-    if (held) throw Error("{}: holds {}, not a sweep; choose another -o", out.string(), held);
-}
-
 reports::SweepEvents told_events(const std::filesystem::path& out) {
     SweepEvents events;
     events.again = [](const Job& job, const std::string& why) {
@@ -188,7 +180,7 @@ void SweepJobs::check_trainings(std::vector<Job>& jobs) {
     if (trainings.empty()) return;
     const Scratch folder("check");
     const auto file = (folder.path() / "trainings.json").string();
-    write_whole(file, asked.dump());
+    write_whole(file, asked.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
     const auto answer = output_of({(program_folder() / "actformer").string(), "train", "check", file});
     if (!answer) return;
     const auto problems = nlohmann::json::parse(*answer);

@@ -37,9 +37,6 @@ class SweepJobs : public reports::JobRunner {
     std::filesystem::path out_;
 };
 
-/// Throws Error where `out` is the folder of a dataset or a training, which is no place for jobs.
-void refuse_other_folders(const std::filesystem::path& out);
-
 /// Tells on standard error which job begins and how each ends. `out` is the sweep's folder.
 reports::SweepEvents told_events(const std::filesystem::path& out);
 

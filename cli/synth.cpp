@@ -13,6 +13,7 @@
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
 #include "cli/say_json.hpp"
+#include "ingest/dataset/own_kind.hpp"
 #include "ingest/synth/ntu/ntu.hpp"
 #include "ingest/synth/stand_in.hpp"
 
@@ -72,6 +73,7 @@ void print_summary(const Summary& s, const Options& options, bool json, double s
 /// Runs `make`, which is handed a callback for how many clips are done.
 template <typename Options, typename Make>
 void run(const Options& options, bool json, Make make) {
+    ingest::refuse_other_folder(options.folder, ingest::own::raw);
     const auto start = std::chrono::steady_clock::now();
     const auto summary = [&] {
         Progress progress("synth", "clips", json);

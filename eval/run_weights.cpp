@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/files/nearest_file.hpp"
 #include "base/process/shipped.hpp"
+#include "ingest/dataset/own_kind.hpp"
 
 namespace actformer::eval {
 
@@ -19,6 +20,8 @@ std::filesystem::path weights_of(const std::filesystem::path& named) {
     if (!std::filesystem::is_directory(run, ignored)) return run;
     for (const auto* name : {"weights-best.h5", "weights-average.h5", "weights-last.h5"})
         if (std::filesystem::exists(run / name, ignored)) return run / name;
+    if (const auto kind = ingest::own_kind(run); !kind.empty() && kind != ingest::own::training)
+        throw Error("{}: {}; a training or weights (.h5) are expected", run.string(), kind);
     throw Error("{}: holds no weights-*.h5; is it the folder of a training that has done an epoch?",
                 run.string());
 }

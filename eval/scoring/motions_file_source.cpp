@@ -11,6 +11,7 @@
 #include "base/hdf5/reader.hpp"
 #include "ingest/dataset/described_motions.hpp"
 #include "ingest/dataset/motions_file.hpp"
+#include "ingest/dataset/own_kind.hpp"
 #include "ingest/dataset/subjects.hpp"
 
 namespace actformer::eval {
@@ -24,6 +25,7 @@ class MotionsFileSource final : public MotionSource {
         : options_(std::move(options)), where_(file.string()), file_(file) {
         info_.source = where_;
         info_.view = options_.frames ? fmt::format("first {} frames", options_.frames) : "whole motions";
+        ingest::refuse_other_than_motions(file_, where_);
         list();
         describe();
         info_.labels = labels();
@@ -61,9 +63,10 @@ void MotionsFileSource::check_shape(const hdf5::Shape& shape, const std::string&
     if (shape[0] != info_.channels || shape[1] != info_.joints)
         throw Error("{}: '{}' has {} channels and {} joints, and '{}' has {} and {}; keep to one kind a file",
                     where_, name, shape[0], shape[1], info_.names[0], info_.channels, info_.joints);
-    if (shape[2] == 0 || shape[2] < options_.frames)
+    if (shape[2] == 0) throw Error("{}: '{}' has no frames; leave it out", where_, name);
+    if (shape[2] < options_.frames)
         throw Error("{}: '{}' has {} frames, fewer than {}; ask for fewer with --frames", where_, name,
-                    shape[2], std::max(options_.frames, 1U));
+                    shape[2], options_.frames);
 }
 
 void MotionsFileSource::list() {

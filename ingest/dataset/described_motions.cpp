@@ -40,7 +40,8 @@ Subjects DescribedMotions::find_subjects() const {
         const auto nodes = file_.read(file_.names()[0]).nodes;
         if (how == Representation::rot6d || nodes != subjects.topology.joints())
             throw Error(
-                "{} does not say how its {} nodes hang together; give --bones DATASET with the same skeleton",
+                "{}: does not say how its {} nodes hang together; `export` and `render` take --bones DATASET "
+                "with the same skeleton",
                 path_.string(), nodes);
     }
     if (subjects.bone_length.empty()) subjects.bone_length = usual_bone_lengths(subjects.topology);

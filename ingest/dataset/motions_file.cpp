@@ -1,11 +1,13 @@
 #include "ingest/dataset/motions_file.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
 #include "ingest/dataset/layout.hpp"
+#include "ingest/dataset/own_kind.hpp"
 
 namespace actformer::ingest {
 
@@ -40,6 +42,7 @@ struct MotionsFile::Handle {
 
 MotionsFile::MotionsFile(const std::filesystem::path& path, Representation otherwise)
     : path_(path), file_(new Handle{hdf5::Reader(path)}), representation_(otherwise) {
+    refuse_other_than_motions(file_->reader, path.string());
     for (auto& name : file_->reader.names())
         if (file_->reader.is_array(name)) names_.push_back(std::move(name));
     if (names_.empty())
@@ -57,7 +60,9 @@ MotionsFile::~MotionsFile() = default;
 Motion MotionsFile::read(const std::string& name) const {
     const auto shape = file_->reader.shape(name);
     const auto numbers = representation_.numbers();
-    if (shape.size() != 3 || shape[0] == 0 || shape[0] % numbers != 0 || shape[1] == 0)
+    constexpr hsize_t most = std::numeric_limits<std::uint32_t>::max();
+    if (shape.size() != 3 || shape[0] == 0 || shape[0] % numbers != 0 || shape[1] == 0 ||
+        std::ranges::max(shape) > most)
         throw Error("{}: '{}' is no (P*{}, K, T) array, as {} has them", path_.string(), name, numbers,
                     representation_.name());
     Motion motion{name,

@@ -10,6 +10,7 @@
 #include "base/files/file.hpp"
 #include "base/files/regular_file.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/dataset/own_kind.hpp"
 #include "model/train/tensorboard.hpp"
 
 namespace actformer::model {
@@ -40,6 +41,7 @@ std::filesystem::path kept_as_damaged(const std::filesystem::path& path) {
 
 RunFolder::RunFolder(std::filesystem::path folder, bool tensorboard)
     : folder_(std::move(folder)), tensorboard_(tensorboard) {
+    ingest::refuse_other_folder(folder_, ingest::own::training);
     make_folders(folder_);
     lock_ = FileLock::if_free(folder_ / "lock");
     if (!lock_)

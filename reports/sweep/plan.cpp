@@ -12,6 +12,7 @@
 #include "base/process/shipped.hpp"
 #include "eval/run_weights.hpp"
 #include "ingest/dataset/dataset.hpp"
+#include "ingest/dataset/own_kind.hpp"
 #include "reports/sweep/configuration.hpp"
 
 namespace actformer::reports {
@@ -74,17 +75,25 @@ class Planner {
         return path;
     }
 
+    /// What lies there where it cannot be `wanted`; else empty.
+    static std::string other_than(std::string_view wanted, const std::string& at) {
+        const auto is = ingest::own_kind(at);
+        const bool may_be = is == wanted || (is == ingest::own::training && wanted != ingest::own::dataset);
+        return is.empty() || may_be ? "" : fmt::format("{}: holds {}, not {}", at, is, wanted);
+    }
+
     /// What should be there, and needs no job then; where it is not, `job` stands for it and says so.
-    Made there(const std::string& path, const char* what, Job job) {
+    Made there(const std::string& path, const char* what, std::string_view kind, Job job) {
         const auto at = found(path, job);
+        if (job.problem.empty()) job.problem = other_than(kind, at);
         if (job.problem.empty()) return {{}, at};
         job.work = MissingWork{what, at};
         return {add(std::move(job)), at};
     }
 
     /// Weights, or the folder of a training.
-    Made ready_weights(const std::string& path, Job job) {
-        auto made = there(path, "weights", std::move(job));
+    Made ready_weights(const std::string& path, std::string_view kind, Job job) {
+        auto made = there(path, "weights", kind, std::move(job));
         if (made.job) return made;
         try {
             made.contents = checksum_file(eval::weights_of(made.path));
@@ -155,7 +164,7 @@ class Planner {
         job.kind = "ingest";
         job.title = "dataset " + name;
         if (!d.path.empty()) {
-            auto made = there(d.path, "dataset", std::move(job));
+            auto made = there(d.path, "dataset", ingest::own::dataset, std::move(job));
             if (!made.job) look_into(made);
             return made;
         }
@@ -202,7 +211,7 @@ class Planner {
         Job job;
         job.kind = "recogniser";
         job.title = "recogniser " + name;
-        if (!r.weights.empty()) return ready_weights(r.weights, std::move(job));
+        if (!r.weights.empty()) return ready_weights(r.weights, ingest::own::recogniser, std::move(job));
         const auto at = train(std::move(job), r.config, r.set, dataset(r.data));
         return {at, made_by(at, TrainingWork().out)};
     }
@@ -211,7 +220,7 @@ class Planner {
         Job job;
         job.kind = "generator";
         job.title = fmt::format("{}, seed {}: generator", row.name, seed);
-        if (!row.weights.empty()) return ready_weights(row.weights, std::move(job));
+        if (!row.weights.empty()) return ready_weights(row.weights, ingest::own::generator, std::move(job));
         auto set = row.set;
         set["seed"] = std::to_string(seed);
         const auto at = train(std::move(job), row.config, set, data);

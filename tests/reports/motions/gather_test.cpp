@@ -67,10 +67,12 @@ TEST(Gather, DrawsTheSameJointsInEveryRepresentation) {
 TEST(Gather, RefusesWhatItCannotTell) {
     const TempDir dir;
     const auto bare = motions_of(dir, Representation::rot6d, false);
-    EXPECT_NE(error_of(bare, {}).find("8 nodes hang together; give --bones"), std::string::npos)
+    EXPECT_NE(error_of(bare, {}).find("8 nodes hang together; `export` and `render` take --bones"),
+              std::string::npos)
         << error_of(bare, {});
     const auto limbs = motions_of(dir, Representation::limb, false);
-    EXPECT_NE(error_of(limbs, {}).find("7 nodes hang together; give --bones"), std::string::npos)
+    EXPECT_NE(error_of(limbs, {}).find("7 nodes hang together; `export` and `render` take --bones"),
+              std::string::npos)
         << error_of(limbs, {});
     const auto rotations = motions_of(dir, Representation::rot6d, true);
     Wanted wanted;

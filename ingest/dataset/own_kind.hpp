@@ -1,0 +1,32 @@
+// What this program wrote at a path, for messages where something else is expected there.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace actformer::hdf5 {
+class Reader;
+}
+
+namespace actformer::ingest {
+
+namespace own {
+inline constexpr std::string_view generator = "a generator's weights", recogniser = "a recogniser's weights",
+                                  features = "features", shard = "a dataset's shard", dataset = "a dataset",
+                                  training = "a training", sweep = "a sweep", raw = "synthetic raw data";
+}  // namespace own
+
+/// One of those; empty of motions, and of files of other programs.
+std::string_view own_kind(const hdf5::Reader& file);
+
+/// The same of a folder or file. Empty too where it cannot be read.
+std::string_view own_kind(const std::filesystem::path& path);
+
+/// Throws Error, with the remedy, for a file that this program wrote and that holds no motions.
+void refuse_other_than_motions(const hdf5::Reader& file, const std::string& where);
+
+/// Throws Error where the folder to write into is a file, or holds another kind than `wanted`.
+void refuse_other_folder(const std::filesystem::path& out, std::string_view wanted);
+
+}  // namespace actformer::ingest
