@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <set>
 
+#include "base/files/file.hpp"
 #include "base/files/regular_file.hpp"
 #include "base/text/suggestion.hpp"
+#include "base/text/utf8.hpp"
 #include "ingest/formats/formats.hpp"
 #include "reports/tables/own_tables.hpp"
 
@@ -52,6 +54,12 @@ class Section {
             for (const auto& step : path_) circle += step + " -> ";
             place_.fail(node_[name], fmt::format("{}: a circle of like: {}{}", name_, circle, name));
         }
+        constexpr std::size_t deepest = 64;
+        if (path_.size() == deepest)
+            place_.fail(node_[name],
+                        fmt::format("{}: more than {} entries like each other in a row; say what they share "
+                                    "in base",
+                                    name_, deepest));
         const auto own = node_[name];
         place_.expect_map(own, fmt::format("{}: '{}'", name_, name));
         path_.push_back(name);
@@ -274,12 +282,25 @@ void check_references(const Place& place, const Node& root, const Sweep& sweep,
     }
 }
 
+/// Results and jobs are told in JSON, which holds no other text.
+void refuse_other_than_utf8(std::string_view text, const std::string& file) {
+    int line = 1;
+    while (!text.empty()) {
+        const auto character = first_character(text);
+        if (!character) throw Error("{}: line {}: not UTF-8; save it as that", file, line);
+        line += text[0] == '\n';
+        text.remove_prefix(character->bytes);
+    }
+}
+
 Node load(const std::filesystem::path& file) {
+    constexpr std::uint64_t largest = std::uint64_t{16} << 20;
     refuse_irregular(file);
+    std::vector<char> scratch;
+    const auto text = read_text(file, scratch, largest);
+    refuse_other_than_utf8(text, file.string());
     try {
-        return YAML::LoadFile(file.string());
-    } catch (const YAML::BadFile&) {
-        throw Error("{}: no such file, or not to be read", file.string());
+        return YAML::Load(std::string(text));
     } catch (const YAML::DeepRecursion& e) {
         throw Error("{}: line {}: lists and maps too deep; is it the right file?", file.string(),
                     e.mark.line + 1);

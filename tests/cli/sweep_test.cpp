@@ -368,6 +368,13 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
     expect_refused({"sweep.yaml", "line ", "circle", "a -> b -> c -> a"});
     sweep_file("  a: {like: a}\n");
     expect_refused({"circle", "a -> a"});
+    std::string chain;
+    for (int i = 0; i < 9000; ++i)
+        chain += "  a" + std::to_string(i) + ": {like: a" + std::to_string(i + 1) + "}\n";
+    sweep_file(chain + "  a9000: {}\n");
+    expect_refused({"sweep.yaml: line ", "more than 64 entries like each other"});
+    sweep_file("  a: {split: caf\xE9}\n");
+    expect_refused({"sweep.yaml: line 9", "not UTF-8"});
     sweep_file("  a: {like: nobody}\n");
     expect_refused({"line 9", "nobody"});
     sweep_file("  a: {fills: [table9/full/NTU-1P]}\n");
