@@ -63,13 +63,12 @@ void make_raw(const BenchIngestOptions& options, const fs::path& raw) {
         for (const auto& entry : fs::directory_iterator(options.sample))
             if (entry.path().extension() == ".skeleton") real = entry.path();
     const auto copies = real ? options.clips / 2 : 0;
-    fs::create_directories(raw);
-    for (std::uint64_t i = 0; i < copies; ++i) fs::copy_file(*real, raw / copy_name(i));
     ingest::synth::NtuOptions synth;
     synth.folder = raw;
     synth.clips = options.clips - copies;
     synth.actions = one_person_actions();
-    ingest::synth::synthesise_ntu(synth);
+    ingest::synth::synthesise_ntu(synth);  // which makes no clips among those of others
+    for (std::uint64_t i = 0; i < copies; ++i) fs::copy_file(*real, raw / copy_name(i));
     if (!options.json)
         say("{} copies of {}, {} synthetic clips\n", grouped(copies),
             real ? real->filename().string() : "a real clip (none given)", grouped(options.clips - copies));

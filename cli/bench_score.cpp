@@ -176,7 +176,9 @@ void add_bench_score(CLI::App& bench) {
     count("--dimensions", options->dimensions, "Features of a sample");
     count("--real", options->real, "Real samples a class");
     count("--generated", options->generated, "Generated samples a class");
-    command->add_option("--peer", options->peer, "The peer's program")->capture_default_str();
+    command->add_option("--peer", options->peer, "The peer's program")
+        ->check(CLI::ExistingFile)
+        ->capture_default_str();
     command->add_option("--python", options->python, "Python that has scipy and h5py")->capture_default_str();
     command->add_option("--repeats", options->repeats, "Runs, of which the best counts")
         ->check(CLI::Range(1, 100))

@@ -102,7 +102,9 @@ void add_classify(CLI::App& app) {
     auto options = std::make_shared<ClassifyOptions>();
     auto* command = app.add_subcommand("classify", "The actions of clips without labels");
     add_motion_options(command, *options);
-    command->add_option("-o,--out", options->out, "The table as a CSV file")->type_name("CLASSES.csv");
+    command->add_option("-o,--out", options->out, "The table as a CSV file")
+        ->type_name("CLASSES.csv")
+        ->check(ends_in(".csv"));
     add_force_option(command, options->force);
     command->add_flag("--json", options->json, "Print JSON");
     examples(

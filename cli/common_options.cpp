@@ -1,6 +1,11 @@
 #include "cli/common_options.hpp"
 
+#include <algorithm>
+#include <filesystem>
+
 #include "base/error.hpp"
+#include "base/text/lower_case.hpp"
+#include "base/text/printable.hpp"
 
 namespace actformer::cli {
 
@@ -10,6 +15,27 @@ void add_device_option(CLI::App* command, std::string& device) {
 
 void add_force_option(CLI::App* command, bool& force) {
     command->add_flag("--force", force, "Replace a file that this program did not write");
+}
+
+std::function<std::string(const std::string&)> ends_in(const std::string& ending) {
+    return [ending](const std::string& path) -> std::string {
+        static const std::vector<std::vector<std::string>> kinds{{".h5", ".hdf5"},  {".csv", ".tsv", ".txt"},
+                                                                 {".html", ".htm"}, {".json"},
+                                                                 {".tex"},          {".gif"},
+                                                                 {".png"},          {".mp4"},
+                                                                 {".npz"},          {".npy"},
+                                                                 {".bvh"},          {".glb"},
+                                                                 {".yaml", ".yml"}, {".pdf"}};
+        const auto given = lower_case(std::filesystem::path(path).extension().string());
+        const auto has = [](const auto& kind, const std::string& one) {
+            return std::ranges::count(kind, one) > 0;
+        };
+        for (const auto& kind : kinds)
+            if (has(kind, given) && !has(kind, ending))
+                return fmt::format("{}: the file written is not a {}; let its name end in {}",
+                                   printable(path), given, ending);
+        return {};
+    };
 }
 
 void refuse_given(const CLI::App& command, std::initializer_list<const char*> options,

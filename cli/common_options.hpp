@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <initializer_list>
 #include <string>
 
@@ -12,6 +13,9 @@ void add_device_option(CLI::App* command, std::string& device);
 
 /// --force: an output may take the place of a file of others (ingest/export/foreign.hpp).
 void add_force_option(CLI::App* command, bool& force);
+
+/// A check of a file's name: one that ends as files of another kind do, as in `generate -o motions.gif`, is refused. `ending` with its dot.
+std::function<std::string(const std::string&)> ends_in(const std::string& ending);
 
 /// Throws Error where one of `options` was given: "--labels: WHY; leave it out".
 void refuse_given(const CLI::App& command, std::initializer_list<const char*> options,

@@ -66,7 +66,10 @@ void add_features(CLI::App& app) {
     auto options = std::make_shared<FeaturesOptions>();
     auto* command = app.add_subcommand("features", "Features and logits of motions or of a dataset's split");
     add_motion_options(command, *options);
-    command->add_option("-o,--out", options->out, "HDF5 file to make")->required()->type_name("FEATURES.h5");
+    command->add_option("-o,--out", options->out, "HDF5 file to make")
+        ->required()
+        ->type_name("FEATURES.h5")
+        ->check(ends_in(".h5"));
     command
         ->add_option(
             "--initial-noise", options->initial_noise,

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
@@ -53,7 +54,8 @@ void add_generate(CLI::App& app) {
         ->type_name("RUN|WEIGHTS.h5");
     command->add_option("-o,--out", request.out, "HDF5 file to make, in the public layout")
         ->required()
-        ->type_name("MOTIONS.h5");
+        ->type_name("MOTIONS.h5")
+        ->check(ends_in(".h5"));
     command->add_option("--per-class", request.per_class, "Motions of every class")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();

@@ -7,6 +7,7 @@
 
 #include "base/files/nearest_file.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"
 #include "cli/say_json.hpp"
@@ -55,7 +56,10 @@ void add_files(CLI::App* command, ImportOptions<Request>& options) {
                      "Dataset whose skeleton, representation and classes the weights are for")
         ->required()
         ->type_name("DATASET");
-    command->add_option("-o,--out", request.out, "HDF5 file to make")->required()->type_name("WEIGHTS.h5");
+    command->add_option("-o,--out", request.out, "HDF5 file to make")
+        ->required()
+        ->type_name("WEIGHTS.h5")
+        ->check(ends_in(".h5"));
     command->add_flag("--force", options.force, "Replace a file that holds no imported weights");
     command->add_flag("--json", options.json, "Print the result as JSON");
 }

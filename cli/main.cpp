@@ -102,7 +102,7 @@ void add_documentation(CLI::App& app) {
     const auto folder = std::make_shared<std::filesystem::path>();
     man->add_option("-o,--out", *folder, "Folder to write them in")->required()->type_name("DIR");
     man->callback([&app, folder] {
-        fmt::print("{}: {} pages\n", folder->string(), write_man_pages(all_commands(app), *folder));
+        say("{}: {} pages\n", folder->string(), write_man_pages(all_commands(app), *folder));
     });
 }
 

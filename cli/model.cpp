@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -26,9 +27,19 @@ struct ModelOptions {
     bool json = false;
 };
 
+struct Networks {
+    std::vector<model::NetworkSummary> all;
+    bool for_ntu = false;  ///< as no dataset is named
+};
+
+/// Empty where neither the configuration nor --data names a dataset.
+std::string data_of(const model::Config& config, const ModelOptions& options) {
+    return options.data.empty() ? config.get<std::string>("data") : options.data;
+}
+
 /// What networks are made for: a dataset, or NTU's skeleton with the configuration's persons and classes.
 model::MotionSpec spec_of(const model::Config& config, const ModelOptions& options) {
-    const auto data = options.data.empty() ? config.get<std::string>("data") : options.data;
+    const auto data = data_of(config, options);
     if (!data.empty()) {
         const ingest::Dataset dataset(ingest::one_dataset_at(data));
         return model::spec_of(ingest::subjects_of(dataset), dataset.folder().string());
@@ -67,28 +78,39 @@ model::NetworkSummary recogniser_of(const model::Config& config, const model::Mo
     return {"recogniser", model::stgcn_summary(network, settings.frames)};
 }
 
-std::vector<model::NetworkSummary> networks_of(const ModelOptions& options) {
+Networks networks_of(const ModelOptions& options) {
     if (const auto kind = eval::recogniser_kind_named(model::model_named_in(options.config))) {
         const auto config = read(model::recogniser_config(*kind), options);
-        return {recogniser_of(config, spec_of(config, options))};
+        return {{recogniser_of(config, spec_of(config, options))}, data_of(config, options).empty()};
     }
     const auto config = read(model::read_generator_config(options.config), options);
-    return model::method_named(config.model(), options.config).networks(config, spec_of(config, options));
+    const auto& method = model::method_named(config.model(), options.config);
+    return {method.networks(config, spec_of(config, options)), data_of(config, options).empty()};
 }
 
 std::string shape_text(const std::vector<std::int64_t>& shape) {
     return fmt::format("({})", fmt::join(shape, ", "));
 }
 
-void print_text(const std::vector<model::NetworkSummary>& networks) {
-    for (const auto& network : networks) {
-        say("{:<24} {:<40} {:<16} {:>12}\n", network.name, "what", "output", "parameters");
-        for (const auto& line : network.lines)
-            say("{:<24} {:<40} {:<16} {:>12}\n", line.layer, line.kind, shape_text(line.shape),
-                grouped(static_cast<std::uint64_t>(line.parameters)));
-        say("{:<24} {:<40} {:<16} {:>12}\n\n", "total", "", "",
-            grouped(static_cast<std::uint64_t>(parameters_of(network))));
-    }
+/// A table whose columns are as wide as their longest entries.
+void print_network(const model::NetworkSummary& network) {
+    std::vector<std::array<std::string, 4>> rows{{network.name, "what", "output", "parameters"}};
+    for (const auto& line : network.lines)
+        rows.push_back({line.layer, line.kind, shape_text(line.shape),
+                        grouped(static_cast<std::uint64_t>(line.parameters))});
+    rows.push_back({"total", "", "", grouped(static_cast<std::uint64_t>(parameters_of(network)))});
+    std::array<std::size_t, 4> widths{24, 40, 16, 12};
+    for (const auto& row : rows)
+        for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+    for (const auto& row : rows)
+        say("{:<{}} {:<{}} {:<{}} {:>{}}\n", row[0], widths[0], row[1], widths[1], row[2], widths[2], row[3],
+            widths[3]);
+    say("\n");
+}
+
+void print_text(const Networks& networks) {
+    if (networks.for_ntu) say("for NTU's 25 joints, as no --data is given\n\n");
+    for (const auto& network : networks.all) print_network(network);
 }
 
 void print_json(const std::vector<model::NetworkSummary>& networks) {
@@ -113,7 +135,7 @@ void print_json(const std::vector<model::NetworkSummary>& networks) {
 
 void run(const ModelOptions& options) {
     const auto networks = networks_of(options);
-    options.json ? print_json(networks) : print_text(networks);
+    options.json ? print_json(networks.all) : print_text(networks);
 }
 
 }  // namespace

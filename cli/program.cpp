@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -49,6 +51,30 @@ std::pair<const CLI::App*, int> command_named(const CLI::App& app, int argc, cha
     return {command, words};
 }
 
+/// The value behind an unknown option: "3" of --epochs 3 and of --epochs=3; "VALUE" where there is none.
+std::string value_behind(int at, int argc, char** argv) {
+    const std::string word = argv[at];
+    if (const auto equals = word.find('='); equals != word.npos) return word.substr(equals + 1);
+    const std::string next = at + 1 < argc ? argv[at + 1] : "-";
+    return next.starts_with('-') || next.find('=') != next.npos ? "VALUE" : next;
+}
+
+/// How to write a key of the configuration that was written as an option; empty where the command takes no keys.
+std::string key_in_place_of(const CLI::App& command, const std::string& word, const std::string& value) {
+    const auto takes_keys = [](const CLI::Option* option) { return option->get_type_name() == "KEY=VALUE"; };
+    if (command.get_options(takes_keys).empty()) return {};
+    auto key = word.substr(2);
+    std::ranges::replace(key, '-', '_');
+    return fmt::format("keys of the configuration are written {}={}", printable(key), printable(value));
+}
+
+/// The words that the options and commands leave over.
+std::vector<std::string> left_over(const CLI::App& app) {
+    auto words = app.remaining(true);
+    std::erase(words, "--");
+    return words;
+}
+
 /// What is wrong with the first word that is neither a command nor an option; empty where the words are known.
 std::string unknown_word(const CLI::App& app, int argc, char** argv) {
     const auto [command, words] = command_named(app, argc, argv);
@@ -59,10 +85,122 @@ std::string unknown_word(const CLI::App& app, int argc, char** argv) {
     const auto options = options_of(*command);
     for (int i = words; i < argc && std::string_view(argv[i]) != "--"; ++i) {
         const std::string word(argv[i], std::strcspn(argv[i], "="));
-        if (word.starts_with("--") && std::ranges::find(options, word) == options.end())
-            return fmt::format("there is no option '{}'{}", printable(word), suggestion(word, options));
+        if (!word.starts_with("--") || std::ranges::find(options, word) != options.end()) continue;
+        const auto meant = suggestion(word, options);
+        const auto key = key_in_place_of(*command, word, value_behind(i, argc, argv));
+        return fmt::format("there is no option '{}'{}{}{}", printable(word), key.empty() ? "" : "; ", key,
+                           meant);
     }
+    for (const auto& word : left_over(app))
+        if (word.size() > 1 && word[0] == '-' && (word[1] < '0' || word[1] > '9'))
+            return fmt::format("there is no option '{}'", printable(word));
     return {};
+}
+
+bool is_unsigned(const CLI::Option& option) {
+    const auto type = option.get_type_name();
+    return type.starts_with("UINT") || type == "SEED";
+}
+
+/// The numbers that an option takes, by its type in --help: "a whole number from 1 to 9" of "UINT:INT in [1 - 9]".
+std::string numbers_of(const CLI::Option& option) {
+    const auto type = option.get_type_name();
+    const bool whole = is_unsigned(option) || type.find("INT") != type.npos;
+    const std::string out = whole ? "a whole number" : "a number";
+    constexpr std::string_view in = " in [", to = " - ";
+    const auto from = type.find(in);
+    if (from == type.npos) return out + (is_unsigned(option) ? " from 0" : "");
+    const auto bounds = type.substr(from + in.size(), type.find(']', from) - from - in.size());
+    const auto dash = bounds.find(to, 1);
+    return fmt::format("{} from {} to {}", out, bounds.substr(0, dash), bounds.substr(dash + to.size()));
+}
+
+bool is_number(std::string_view text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+std::string is_not(std::string_view value, const std::string& wanted) {
+    return fmt::format("{} is not {}", in_quotes(value), wanted);
+}
+
+std::string refused_number(const CLI::Option& option, std::string_view value) {
+    auto wanted = numbers_of(option);
+    // The type may be a placeholder such as N. A number that is none for CLI11 was to be a whole one then.
+    if (wanted == "a number" && is_number(value)) wanted = "a whole number from 0";
+    return fmt::format("{}: {}", option.get_name(), is_not(value, wanted));
+}
+
+std::string missing_value(const CLI::Option& option) {
+    auto type = option.get_type_name();
+    if (is_unsigned(option) || type.starts_with("INT") || type.starts_with("FLOAT"))
+        type = numbers_of(option);
+    else if (type.starts_with("TEXT"))
+        type.erase(0, std::string_view("TEXT:").size());
+    return fmt::format("{}: a value is missing{}", option.get_name(),
+                       type.empty() ? "" : fmt::format(" ({})", type));
+}
+
+/// CLI11's sentence on an option, in words of ours; one that has none stays.
+std::string in_words(const CLI::App& command, const CLI::ParseError& error) {
+    constexpr std::string_view unread = "Could not convert: ", value = ": Value ", range = " not in range ";
+    std::string_view said = error.what();
+    if (said.starts_with(unread)) said.remove_prefix(unread.size());
+    for (const auto* option : command.get_options()) {
+        const auto name = option->get_name();
+        if (!said.starts_with(name)) continue;
+        const auto rest = said.substr(name.size());
+        if (rest.starts_with(" = ")) return refused_number(*option, rest.substr(3));
+        if (const auto end = rest.find(range); rest.starts_with(value) && end != rest.npos)
+            return refused_number(*option, rest.substr(value.size(), end - value.size()));
+        if (rest.starts_with(": 1 required ")) return missing_value(*option);
+        if (rest.starts_with(": At Most 1 required "))
+            return fmt::format("{}: given {} times; give it once", name, option->count());
+    }
+    return printable(error.what());
+}
+
+/// "--generator, --out are required", of those that were not given; empty where none was left out.
+std::string required_yet(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const auto* option : command.get_options())
+        if (option->get_required() && option->count() == 0) names.push_back(option->get_name());
+    if (names.empty()) return {};
+    return fmt::format("{} {} required", fmt::join(names, ", "), names.size() == 1 ? "is" : "are");
+}
+
+/// What is wrong where all options and commands are known.
+std::string known_problem(const CLI::App& app, const CLI::App& command, const CLI::ParseError& error) {
+    const bool lacks = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    if (!lacks && dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return in_words(command, error);
+    const auto required = required_yet(command);
+    if (const auto words = left_over(app); !words.empty())
+        return fmt::format("there is no place for {}{}{}", in_quotes(words[0]), required.empty() ? "" : "; ",
+                           required);
+    if (!required.empty()) return required;
+    const auto commands = commands_of(command);
+    if (commands.empty()) return in_words(command, error);
+    return fmt::format("no command is given; there are {}", fmt::join(commands, ", "));
+}
+
+/// Of every command's unsigned options. CLI11 takes -1, and what is too large, for the largest number of all, and 010 for 8: here the
+/// first two are refused, and the third is 10.
+void refuse_signs(CLI::App& app) {
+    for (auto* option : app.get_options()) {
+        if (!is_unsigned(*option)) continue;
+        const auto read = [option](std::string& text) -> std::string {
+            const auto digits = std::string_view(text).substr(text.starts_with('+') ? 1 : 0);
+            std::uint64_t number = 0;
+            const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+            if (error != std::errc() || end != digits.data() + digits.size())
+                return is_not(text, numbers_of(*option));
+            text = std::to_string(number);
+            return {};
+        };
+        option->transform(CLI::Validator(read, ""));
+    }
+    for (auto* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_signs(*command);
 }
 
 }  // namespace
@@ -77,10 +215,12 @@ namespace {
 
 /// What is wrong with the words, and where help is.
 std::string refusal(const CLI::App& app, int argc, char** argv, const CLI::ParseError& error) {
-    const auto unknown = unknown_word(app, argc, argv);
+    const auto [command, words] = command_named(app, argc, argv);
+    auto why = unknown_word(app, argc, argv);
+    if (why.empty()) why = known_problem(app, *command, error);
     auto help = app.get_name();
-    for (int i = 1; i < command_named(app, argc, argv).second; ++i) help += fmt::format(" {}", argv[i]);
-    return fmt::format("{} (see {} --help)", unknown.empty() ? printable(error.what()) : unknown, help);
+    for (int i = 1; i < words; ++i) help += fmt::format(" {}", argv[i]);
+    return fmt::format("{} (see {} --help)", why, help);
 }
 
 int parse(int argc, char** argv, const std::function<void(CLI::App&)>& add_commands) {
@@ -93,6 +233,7 @@ int parse(int argc, char** argv, const std::function<void(CLI::App&)>& add_comma
         ->callback([&app] { fmt::print("{}\n", to_json(help_of(app)).dump()); });
     app.get_formatter()->column_width(34);
     add_commands(app);
+    refuse_signs(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {
@@ -134,6 +275,7 @@ std::string problem_of(std::vector<std::string> words,
     app.name("actformer");
     app.require_subcommand(1);
     add_commands(app);
+    refuse_signs(app);
     forget_callbacks(app);
     std::vector<char*> arguments;
     for (auto& word : words) arguments.push_back(word.data());

@@ -111,9 +111,10 @@ void add_report(CLI::App& app) {
         app.add_subcommand("report", "Write the papers' tables, curves, scores and motions as one HTML file");
     command->add_option("folders", options->folders, "Folders that `actformer sweep`, or a training, wrote")
         ->required();
-    command->add_option("-o,--out", options->out, "The HTML file");
-    command->add_option("--csv", options->csv, "The tables as comma-separated values, one line a figure");
-    command->add_option("--latex", options->latex, "The tables for a paper");
+    command->add_option("-o,--out", options->out, "The HTML file")->check(ends_in(".html"));
+    command->add_option("--csv", options->csv, "The tables as comma-separated values, one line a figure")
+        ->check(ends_in(".csv"));
+    command->add_option("--latex", options->latex, "The tables for a paper")->check(ends_in(".tex"));
     command->add_option("--title", options->title, "The page's title")->capture_default_str();
     command
         ->add_option("--motion-megabytes", options->motion_megabytes,

@@ -179,25 +179,31 @@ eval::ScoreMotions prepared(const ScoreOptions& options, const eval::GenerateSet
 
 std::string value_text(const eval::Metric& metric, double value) {
     return metric.unit == "%" ? fmt::format("{:.2f}", metric.scale * value)
-                              : fmt::format("{:.4g}", metric.scale * value);
+                              : fmt::format("{:#.4g}", metric.scale * value);
 }
 
-void print_metrics(const eval::ScoreReport& report) {
-    say("{:<18}{:>22}{:>22}\n", "", "generated", "real against real");
+/// Empty of distances, which real motions have from others alone.
+std::string of_real(const eval::Metric& metric, const nlohmann::ordered_json& real) {
+    const auto found = real.find(metric.name);
+    return found != real.end() && found->is_number() ? value_text(metric, found->get<double>()) : "";
+}
+
+void print_metrics(const eval::ScoreReport& report, const nlohmann::ordered_json& real) {
+    say("{:<18}{:>22}{:>10}{:>20}\n", "", "generated", "real", "real against real");
     for (const auto& metric : eval::metrics()) {
         const auto got = summary(report, metric);
         if (!got) continue;
         auto text = value_text(metric, got->mean);
         if (got->half_width) text += " ± " + value_text(metric, *got->half_width);
         const auto floor = report.floor ? value_of(report.floor->score, metric) : std::nullopt;
-        say("{:<18}{:>22}{:>22}   {}\n", heading_with_unit(metric), text,
+        say("{:<18}{:>22}{:>10}{:>20}   {}\n", heading_with_unit(metric), text, of_real(metric, real),
             floor ? value_text(metric, *floor) : "-", describe(metric.direction));
     }
 }
 
 void print_classes(const nlohmann::ordered_json& classes) {
     const auto cell = [](const nlohmann::ordered_json& value, double scale) {
-        return value.is_null() ? std::string("-") : fmt::format("{:.4g}", scale * value.get<double>());
+        return value.is_null() ? std::string("-") : fmt::format("{:#.4g}", scale * value.get<double>());
     };
     say("\n{:<28}{:>8}{:>11}{:>12}{:>10}{:>10}\n", "class", "real", "generated", "accuracy %", "FID", "FIDa");
     for (const auto& c : classes)
@@ -214,7 +220,7 @@ void print_text(const eval::Scored& scored) {
         report.real_accuracy
             ? fmt::format("the recogniser is right on {:.1f} % of the real ones", 100 * *report.real_accuracy)
             : "no recogniser tells their classes");
-    print_metrics(report);
+    print_metrics(report, real);
     if (report.classes.size() <= 30) print_classes(scored.json["per_class"]);
     if (!report.warnings.empty()) say("\n");
     for (const auto& warning : report.warnings) say("warning: {}\n", warning);
@@ -261,11 +267,22 @@ bool are_own_scores(std::string_view bytes) {
     return scores.contains("per_class") && scores.contains("provenance");
 }
 
+/// Features that are kept may not take the place of motions, which are called generated.h5 as well.
+void refuse_foreign_outputs(const ScoreOptions& options) {
+    ingest::refuse_foreign(options.out, "scores", are_own_scores);
+    if (options.motions.keep.empty()) return;
+    for (const auto* name : {"real.h5", "generated.h5"}) {
+        const auto path = options.motions.keep / name;
+        ingest::refuse_foreign(path, "features",
+                               [&](std::string_view) { return eval::is_own_features(path); });
+    }
+}
+
 void run(const ScoreOptions& options, const eval::GenerateSets& generate) {
     if (options.samples > 0 && (!options.as_actor() || options.generate.generator.empty()))
         throw Error("--samples is for --protocol actor with --generator; --per-class is for the others");
     if (!options.out.empty()) check_output(options.out);
-    if (!options.force) ingest::refuse_foreign(options.out, "scores", are_own_scores);
+    if (!options.force) refuse_foreign_outputs(options);
     WorkFolder work(options.out);
     const auto scored = scored_by(options, generate, work.path());
     for (const auto& note : scored.notes) say(stderr, "{}\n", note);
@@ -364,7 +381,8 @@ void add_score(CLI::App& app, const eval::GenerateSets& generate) {
                      "Folder to leave the features of both sides in")
         ->type_name("DIR");
     command->add_option("-o,--out", options->out, "Scores as JSON; interrupted, it goes on where it was")
-        ->type_name("SCORES.json");
+        ->type_name("SCORES.json")
+        ->check(ends_in(".json"));
     add_force_option(command, options->force);
     command->add_flag("--json", options->json, "Print JSON");
     examples(

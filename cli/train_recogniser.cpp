@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/say.hpp"
 #include "cli/say_json.hpp"
 #include "cli/training_options.hpp"
+#include "model/generators/method.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -46,7 +49,16 @@ void print_text(const model::RecogniserResult& result, const std::string& split)
             100 * training.best->values.at("class_accuracy").get<double>());
 }
 
+void refuse_generators(const std::string& config) {
+    const auto named = model::model_named_in(config);
+    if (named == "generator" || std::ranges::count(model::methods(), named, &model::Method::name) > 0)
+        throw Error(
+            "{}: a generator's configuration, as `model: {}` says; `actformer train generator` takes it",
+            config, named);
+}
+
 void run(const TrainingOptions& options) {
+    refuse_generators(options.config);
     const auto config = options.read(model::recogniser_config(model::recogniser_kind_in(options.config)));
     TrainingDisplay display(config.get<std::int64_t>("epochs"));
     const auto result = model::train_recogniser(config, options.run, display.events());

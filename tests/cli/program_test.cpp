@@ -81,3 +81,65 @@ TEST(Program, SaysWhatIsWrongWithOptionsThatItKnows) {
     EXPECT_NE(result.output.find("--clips"), std::string::npos) << result.output;
     EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1);
 }
+
+TEST(Program, SaysWhichNumbersAnOptionTakes) {
+    const struct {
+        const char *typed, *answer;
+    } cases[] = {
+        {"synth ntu -o x --seed abc", "--seed: 'abc' is not a whole number from 0 (see actformer synth ntu"},
+        {"synth ntu -o x --seed=-1", "--seed: '-1' is not a whole number from 0"},
+        {"synth ntu -o x --clips -1", "--clips: '-1' is not a whole number from 0"},
+        {"synth ntu -o x --clips 1.5", "--clips: '1.5' is not a whole number from 0"},
+        {"synth ntu -o x --seed 99999999999999999999", "'99999999999999999999' is not a whole number"},
+        {"synth babel -o x --clips -1", "--clips: '-1' is not a whole number from 1 to 1000000"},
+        {"synth babel -o x --clips 0", "--clips: '0' is not a whole number from 1 to 1000000"},
+        {"bench ingest --gigabytes 0", "--gigabytes: '0' is not a number from 0.001 to 1000"},
+        {"report a --json --motion-megabytes x", "--motion-megabytes: 'x' is not a number from 0 to 1000"},
+        {"report a --json --watch 0.5", "--watch: '0.5' is not a whole number from 1 to 86400"},
+        {"features a --recogniser b -o c.h5 --initial-noise -1",
+         "--initial-noise: '-1' is not a whole number"},
+        {"ingest bvh a -o b --persons -1", "--persons: '-1' is not a whole number from 0"},
+        {"ingest bvh a -o b --fps fast", "--fps: 'fast' is not a number"},
+    };
+    for (const auto& one : cases) expect_refused(run_actformer(one.typed), {one.answer});
+}
+
+TEST(Program, ReadsWholeNumbersInTens) {
+    const TempDir dir;
+    const auto result =
+        run_actformer("synth ntu --clips 1 --actions 9 --seed 010 --json -o " + (dir / "raw").string());
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("\"seed\": 10"), std::string::npos) << result.output;
+}
+
+TEST(Program, SaysWhichWordIsMissingOrOneTooMany) {
+    const struct {
+        const char *typed, *answer;
+    } cases[] = {
+        {"-v", "there is no option '-v' (see actformer --help)"},
+        {"synth ntu -v", "there is no option '-v' (see actformer synth ntu --help)"},
+        {"synth", "no command is given; there are ntu, babel, "},
+        {"synth ntu", "--out is required (see actformer synth ntu --help)"},
+        {"ingest bvh", "raw, --out are required"},
+        {"synth ntu -o x more", "there is no place for 'more' (see actformer synth ntu --help)"},
+        {"synth ntu more", "there is no place for 'more'; --out is required"},
+        {"synth ntu -o x -- -3", "there is no place for '-3'"},
+        {"synth ntu -o", "--out: a value is missing (see"},
+        {"synth ntu --seed", "--seed: a value is missing (a whole number from 0)"},
+        {"ingest bvh -o", "--out: a value is missing (DIR)"},
+        {"synth ntu -o x --seed 1 --seed 2", "--seed: given 2 times; give it once"},
+        {"bench score --peer nowhere.py", "--peer: File does not exist: nowhere.py"},
+    };
+    for (const auto& one : cases) expect_refused(run_actformer(one.typed), {one.answer});
+}
+
+TEST(Program, SaysHowAKeyOfTheConfigurationIsWritten) {
+    if (!std::filesystem::exists(program() + "-train")) GTEST_SKIP() << "built without libtorch";
+    const std::string train = "train generator -c actformer-small -o x ";
+    expect_refused(run_actformer(train + "--epochs 3"),
+                   {"there is no option '--epochs'; keys of the configuration are written epochs=3 (see "
+                    "actformer train generator --help)"});
+    expect_refused(run_actformer(train + "--rate-drops=5"), {"are written rate_drops=5"});
+    expect_refused(run_actformer(train + "--epochs batch=3"), {"are written epochs=VALUE"});
+    expect_refused(run_actformer(train + "--dta toy"), {"'--dta'; keys", "did you mean --data?"});
+}

@@ -252,8 +252,15 @@ TEST_F(ReportPage, HoldsNoEmptyTablesOfPapersThatNothingWasRunFor) {
 }
 
 TEST_F(ReportPage, RefusesWhatIsNoSweepAndSaysWhy) {
-    expect_refused(run_actformer("report " + at("none") + " -o " + at("r.html")),
-                   {"none", "no results.json", "actformer sweep"});
+    const auto to = " -o " + at("r.html");
+    fs::create_directory(dir / "empty");
+    expect_refused(run_actformer("report " + at("empty") + to),
+                   {"empty", "no results.json", "actformer sweep"});
+    expect_refused(run_actformer("report " + at("emtpy") + to),
+                   {"emtpy: no such file or folder; did you mean " + at("empty") + "?"});
+    write_file(dir / "motions.h5", "x");
+    expect_refused(run_actformer("report " + at("motions.h5") + to),
+                   {"motions.h5: a file; the folder of a sweep, a training or a comparison is expected"});
     write_file(dir / "cut/results.json", "{\"rows\": [");
     expect_refused(run_actformer("report " + at("cut") + " -o " + at("r.html")), {"results.json", "damaged"});
     expect_refused(report(""), {"nothing to write"});
