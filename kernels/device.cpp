@@ -175,7 +175,7 @@ void raise(const DeviceInfo& device, std::string_view what, const cl::Error& err
         case CL_OUT_OF_RESOURCES:  // memory for the most part, and less of it may do; but drivers say so of other things, too
             throw OutOfMemory(
                 "device {} ({}): out of memory, registers or time {} (CL_OUT_OF_RESOURCES); choose another "
-                "with --device",
+                "with --device (opencl= in a training)",
                 device.index, device.name, what);
         case CL_MEM_OBJECT_ALLOCATION_FAILURE:
         case CL_OUT_OF_HOST_MEMORY:

@@ -75,8 +75,7 @@ ClipStore::ClipStore(Device& device, ClipTable table) : device_(&device), table_
     if (total > 0xFFFF'FFFFU || bytes > device.info().max_allocation)
         throw Error(
             "device {} ({}): {} frames take {} bytes and the largest buffer holds {}; choose a smaller split "
-            "or "
-            "another device with --device",
+            "or another device with --device (opencl= in a training)",
             device.info().index, device.info().name, total, bytes, device.info().max_allocation);
     motion_ = Buffer<float>(device, total * table_.frame_values());
     clips_ = Buffer<std::uint32_t>(device, rows);

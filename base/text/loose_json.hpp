@@ -7,7 +7,7 @@
 
 namespace actformer::loose {
 
-/// What the file says; discarded (neither object nor list) where it cannot be read or is no JSON. Throws Error, naming the line, where
+/// What the file says; discarded (neither object nor list) where it cannot be read or is no JSON. Throws Error where it has more than 256 MiB and, naming the line, where
 /// lists and objects are too deep (see deepest_json).
 nlohmann::ordered_json read(const std::filesystem::path& path);
 

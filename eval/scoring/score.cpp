@@ -55,8 +55,8 @@ void warn_of_lengths(ScoreReport& report, std::uint32_t window, const Lengths& g
     if (window == 0 || generated.longest == 0) return;
     if (generated.shortest == window && generated.longest == window) return;
     report.warnings.push_back(
-        fmt::format("motions of {} frames are compared with windows of {}; --frames crops the motions, "
-                    "--window cuts other windows",
+        fmt::format("motions of {} frames are compared with windows of {}; make features of as many frames "
+                    "(`score` of motions takes --frames and --window)",
                     generated.shortest == generated.longest
                         ? std::to_string(generated.longest)
                         : fmt::format("{} to {}", generated.shortest, generated.longest),

@@ -1,6 +1,7 @@
 #include "ingest/export/selection.hpp"
 
 #include <algorithm>
+#include <set>
 #include <unordered_set>
 
 #include "base/error.hpp"
@@ -32,6 +33,21 @@ std::string in_words(const Selection& selection) {
     return words;
 }
 
+/// "; it has clips of walking, running"; of many the first.
+std::string classes_there(const ClipSource& source) {
+    constexpr std::size_t most = 8;
+    const auto& names = source.subjects().classes;
+    std::set<std::uint32_t> labels;
+    for (const auto& clip : source.clips())
+        if (clip.label && *clip.label < names.size()) labels.insert(*clip.label);
+    std::vector<std::string> there;
+    for (const auto label : labels)
+        if (there.size() < most) there.push_back(printable(names[label]));
+    if (there.empty()) return "";
+    return fmt::format("; it has clips of {}{}", fmt::join(there, ", "),
+                       labels.size() > most ? fmt::format(" and {} more", labels.size() - most) : "");
+}
+
 }  // namespace
 
 std::vector<std::size_t> selected(const ClipSource& source, const Selection& selection) {
@@ -42,8 +58,8 @@ std::vector<std::size_t> selected(const ClipSource& source, const Selection& sel
         std::erase_if(picks, [&](std::size_t i) { return source.clips()[i].label != label; });
     }
     if (picks.empty())
-        throw Error("{}: holds no clip{}; actformer inspect lists what there is", source.path().string(),
-                    in_words(selection));
+        throw Error("{}: holds no clip{}{}", source.path().string(), in_words(selection),
+                    classes_there(source));
     if (selection.count == 0 || selection.count >= picks.size()) return picks;
     std::vector<std::size_t> some;
     for (std::size_t i = 0; i < selection.count; ++i)

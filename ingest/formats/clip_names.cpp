@@ -50,7 +50,7 @@ std::string name_of_path(const std::string& path, std::size_t folders) {
 ClipNames::ClipNames(const std::string& pattern, const fs::path& labels) {
     if (pattern.empty() && labels.empty())
         throw Error(
-            "what the clips are is not said; give --name, as in --name '{{action}}_{{index}}' or "
+            "no actions are told; give --name, as in --name '{{action}}_{{index}}' or "
             "'{{action}}/{{index}}', or a table "
             "of labels with --labels");
     if (!labels.empty()) {

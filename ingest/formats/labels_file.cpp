@@ -91,14 +91,25 @@ struct Columns {
                 throw Error("{}: two columns called {}", place, in_quotes(header[c]));
             if (!take(header[c], c)) others.push_back(c);
         }
+        if (!action) take_class(header);
         if (!file || !action)
             throw Error(
                 "{}: no column called {}; the first line names the columns, as in "
-                "file,action,start_frame,end_frame",
-                place, file ? "action" : "file");
+                "{},{},start_frame,end_frame",
+                place, file ? "action, label or class" : "file, path, name or clip",
+                file ? header[*file] : "file", action ? header[*action] : "action");
     }
 
   private:
+    /// A column called class tells the action where none is called so: beside one it is a field.
+    void take_class(const std::vector<std::string>& header) {
+        const auto found =
+            std::ranges::find(others, "class", [&](std::size_t column) { return header[column]; });
+        if (found == others.end()) return;
+        action = *found;
+        others.erase(found);
+    }
+
     bool take(const std::string& name, std::size_t column) {
         const auto take_as = [&](std::optional<std::size_t>& place, std::string_view a, std::string_view b) {
             if (place || (name != a && name != b)) return false;
@@ -154,8 +165,8 @@ void LabelsFile::read(std::string_view text, const std::string& where) {
     const auto width = record.size();
     while (csv.next(record)) {
         if (record.size() != width)
-            throw Error("{}: {} values, not {} as the first line names columns", csv.place(), record.size(),
-                        width);
+            throw Error("{}: {} value{}, not {} as the first line names columns", csv.place(), record.size(),
+                        record.size() == 1 ? "" : "s", width);
         LabelRow row{record[*columns.file], printable(record[*columns.action]), {}, {}, {}};
         if (row.file.empty() || row.action.empty())
             throw Error("{}: no {}; give every row both", csv.place(), row.file.empty() ? "file" : "action");

@@ -1,7 +1,7 @@
 // A table of labels beside raw files, for names that do not tell the action: a CSV or TSV file with a header line.
 //
 //   file,action,subject,start_frame,end_frame        file (or name): a path or a name, with or without its extension
-//   hips31/02/02_01.bvh,walk,2,1,344                 action (or label): the class
+//   hips31/02/02_01.bvh,walk,2,1,344                 action (or label, or class): the class
 //   hips31/02/02_05.bvh,punch,2,1,927                start_frame, end_frame: of the file's frames, from 0, the end not among them;
 //   hips31/02/02_05.bvh,strike,2,927,1855            empty: to the file's ends. Several rows make several clips of a file.
 //                                                    every other column: a field of the clip, for splits

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/text/nearest_word.hpp"
 #include "base/text/printable.hpp"
+#include "eval/recogniser_kind.hpp"
 #include "model/generators/actformer/method.hpp"
 #include "model/generators/action2motion/method.hpp"
 #include "model/generators/actor/method.hpp"
@@ -53,7 +54,12 @@ Config generator_config(const Method& method) {
 }
 
 Config read_generator_config(const std::filesystem::path& file) {
-    auto config = generator_config(method_named(model_named_in(file), file.string()));
+    const auto named = model_named_in(file);
+    if (eval::recogniser_kind_named(named))
+        throw Error(
+            "{}: a recogniser's configuration, as `model: {}` says; `actformer train recogniser` takes it",
+            file.string(), named);
+    auto config = generator_config(method_named(named, file.string()));
     config.load(file);
     return config;
 }

@@ -5,7 +5,8 @@
 
 #include "base/error.hpp"
 #include "base/text/lower_case.hpp"
-#include "base/text/suggestion.hpp"
+#include "base/text/nearest_word.hpp"
+#include "base/text/printable.hpp"
 #include "model/train/window_feed.hpp"
 
 namespace actformer::model {
@@ -27,10 +28,11 @@ ingest::Dataset dataset_to_train_on(const std::string& data) {
 void check_split(const ingest::Dataset& dataset, const std::string& key, const std::string& split) {
     const auto known = dataset.split_names();
     if (std::ranges::find(known, split) != known.end()) return;
-    auto remedy = suggestion(split, known);
-    if (remedy.empty())
-        remedy =
-            fmt::format("; give {}=all, or ingest the raw data with --split {}=FIELD:VALUE,...", key, split);
+    const auto nearest = nearest_word(split, known);
+    const auto remedy =
+        nearest.empty()
+            ? fmt::format("; give {}=all, or ingest the raw data with --split {}=FIELD:VALUE,...", key, split)
+            : fmt::format("; did you mean {0}? Then give {1}={0}", printable(nearest), key);
     throw Error("{}: no split '{}'; there is {}{}", dataset.folder().string(), split, fmt::join(known, ", "),
                 remedy);
 }

@@ -6,6 +6,7 @@
 
 #include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
+#include "base/files/nearest_file.hpp"
 #include "base/text/loose_json.hpp"
 #include "reports/page/curves.hpp"
 #include "reports/page/training.hpp"
@@ -44,6 +45,11 @@ bool is_damaged(const Json& json, const Json& version) {
 
 Json read_results(const fs::path& folder) {
     const auto path = folder / "results.json";
+    if (!fs::exists(folder))
+        throw Error("{}: no such file or folder{}", folder.string(), did_you_mean(folder));
+    if (!fs::is_directory(folder))
+        throw Error("{}: a file; the folder of a sweep, a training or a comparison is expected",
+                    folder.string());
     if (!fs::is_regular_file(path))
         throw Error(
             "{}: no results.json in it; give the folder that `actformer sweep FILE -o FOLDER` or a training "
@@ -100,8 +106,8 @@ std::string data_in_words(const Json& row) {
     const auto& data = loose::member(row, "data");
     const auto name = "‘" + loose::text(row, "dataset") + "’";
     if (const auto& clips = loose::member(data, "synthetic"); clips.is_number_unsigned())
-        return fmt::format("{}: {} clips of synthetic people, no one was recorded", name,
-                           clips.get<std::uint64_t>());
+        return fmt::format("{}: {} clip{} of synthetic people, no one was recorded", name,
+                           clips.get<std::uint64_t>(), clips == 1 ? "" : "s");
     std::string raw;
     for (const auto& file : loose::list(data, "raw"))
         if (file.is_string()) raw += (raw.empty() ? "" : ", ") + file.get<std::string>();

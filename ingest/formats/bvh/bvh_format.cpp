@@ -12,6 +12,7 @@
 #include "base/files/file.hpp"
 #include "base/text/first_few.hpp"
 #include "base/text/printable.hpp"
+#include "base/text/suggestion.hpp"
 #include "ingest/formats/frame_span.hpp"
 #include "ingest/formats/skeletal/persons.hpp"
 #include "ingest/formats/skeletal/rearrange.hpp"
@@ -160,6 +161,7 @@ void BvhFormat::settle() {
     const bool all_classes = options_.classes.empty();
     for (auto& line : names_.remarks(all_classes ? classes : std::vector<std::string>()))
         decision_.remarks.push_back(std::move(line));
+    remark_classes(classes);
     for (auto& line : empty_splits(options_.splits, names_.fields(), fields_of_clips_))
         decision_.remarks.push_back(std::move(line));
     gather_groups();
@@ -183,6 +185,20 @@ std::vector<std::string> BvhFormat::wanted_classes() const {
         throw Error("none of the classes {} is in a file name; the actions are {}",
                     fmt::join(options_.classes, ","), fmt::join(actions_, ","));
     return options_.classes;
+}
+
+/// Of classes that were asked for and have no clip, and of names that make a class of nearly every file.
+void BvhFormat::remark_classes(const std::vector<std::string>& classes) {
+    for (const auto& action : classes)
+        if (!actions_.contains(action))
+            decision_.remarks.push_back(fmt::format("no file is of class {}{}", in_quotes(action),
+                                                    suggestion(action, {actions_.begin(), actions_.end()})));
+    constexpr std::size_t few = 10;  // of so few files each may well be the only one of its class
+    const auto files = survey_.files().size();
+    if (files > few && 2 * classes.size() > files)
+        decision_.remarks.push_back(
+            fmt::format("{} classes in {} files: {{action}} of --name may take in more than the action",
+                        classes.size(), files));
 }
 
 void BvhFormat::gather_groups() {

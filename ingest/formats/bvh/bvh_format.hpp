@@ -58,6 +58,7 @@ class BvhFormat : public Format {
     bool is_wanted(const std::vector<NamedClip>& clips) const;
     void look_at(const RawText& raw);
     std::vector<std::string> wanted_classes() const;
+    void remark_classes(const std::vector<std::string>& classes);
     void gather_groups();
 
     const Paths* group_of(const RawText& raw) const;

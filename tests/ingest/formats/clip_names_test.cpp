@@ -39,6 +39,18 @@ TEST(ClipNames, AreTheFilesWhereTheseDiffer) {
     EXPECT_EQ(names.fields(), (Names{"action", "index"}));
 }
 
+TEST(ClipNames, NeedAPatternOrLabels) {
+    try {
+        ClipNames("", "");
+        ADD_FAILURE() << "taken";
+    } catch (const Error& e) {
+        EXPECT_STREQ(
+            e.what(),
+            "no actions are told; give --name, as in --name '{action}_{index}' or '{action}/{index}', "
+            "or a table of labels with --labels");
+    }
+}
+
 TEST(ClipNames, HaveAsManyFoldersAsTellThemApart) {
     ClipNames names("{action}/{index}", "");
     const Names paths{"/d/walk/1.bvh", "/d/walk/2.bvh", "/d/run/1.bvh", "/d/run/2.bvh"};

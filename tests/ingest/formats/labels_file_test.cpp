@@ -46,6 +46,18 @@ TEST(LabelsFile, ReadsColumnsByName) {
     EXPECT_EQ(file.rows()[2].end, std::nullopt);
 }
 
+TEST(LabelsFile, TakesAClassForTheActionWhereNoColumnIsCalledSo) {
+    const auto alone = labels("name,class,style\na,walk,slow\n");
+    EXPECT_EQ(alone.rows()[0].action, "walk");
+    EXPECT_EQ(alone.fields(), (Names{"action", "style"}));
+    for (const std::string header : {"file,class,action\n", "file,class,label\n"}) {
+        const auto beside = labels(header + "a,outdoors,walk\n");
+        EXPECT_EQ(beside.rows()[0].action, "walk") << header;
+        EXPECT_EQ(beside.fields(), (Names{"action", "class"})) << header;
+        EXPECT_EQ(beside.rows()[0].fields, (Names{"walk", "outdoors"})) << header;
+    }
+}
+
 TEST(LabelsFile, FindsTheRowsOfAFile) {
     const auto file =
         labels("file,label\na/01.bvh,walk\nb/01.BVH,run\n01,sit\n02.bvh,jump\n02.bvh,hop\n./03,fly\n");
@@ -62,17 +74,20 @@ TEST(LabelsFile, RefusesWhatCannotBeMeant) {
     EXPECT_EQ(refusal(""), "labels.csv: empty; its first line names the columns, as in file,action");
     EXPECT_EQ(refusal("file,action\n"), "labels.csv: no row below the one that names the columns");
     EXPECT_EQ(refusal("file,style\na,b\n"),
-              "labels.csv: line 1: no column called action; the first line names the columns, as in "
-              "file,action,start_frame,end_frame");
-    EXPECT_EQ(refusal("action,style\na,b\n"),
-              "labels.csv: line 1: no column called file; the first line names the columns, as in "
-              "file,action,start_frame,end_frame");
+              "labels.csv: line 1: no column called action, label or class; the first line names the "
+              "columns, as in file,action,start_frame,end_frame");
+    EXPECT_EQ(refusal("name,style\na,b\n"),
+              "labels.csv: line 1: no column called action, label or class; the first line names the "
+              "columns, as in name,action,start_frame,end_frame");
+    EXPECT_EQ(refusal("label,style\na,b\n"),
+              "labels.csv: line 1: no column called file, path, name or clip; the first line names the "
+              "columns, as in file,label,start_frame,end_frame");
     EXPECT_EQ(refusal("file,action,file\na,b,c\n"), "labels.csv: line 1: two columns called 'file'");
     EXPECT_EQ(refusal("file,action,name\na,b,c\n"), "labels.csv: line 1: a field may not be called 'name'");
     EXPECT_EQ(refusal("file,action,my field\na,b,c\n"),
               "labels.csv: line 1: 'my field' is no field name of letters, digits, - and _");
     EXPECT_EQ(refusal("file,action\na,b\nc\n"),
-              "labels.csv: line 3: 1 values, not 2 as the first line names columns");
+              "labels.csv: line 3: 1 value, not 2 as the first line names columns");
     EXPECT_EQ(refusal("file,action,x\na,\"b\nb\",c\na,b\n"),
               "labels.csv: line 4: 2 values, not 3 as the first line names columns");
     EXPECT_EQ(refusal("file,action\n,b\n"), "labels.csv: line 2: no file; give every row both");

@@ -119,6 +119,18 @@ TEST(Methods, AreCalledByName) {
     }
 }
 
+TEST(Methods, AreNoRecognisers) {
+    const auto file = source("model/configs/recogniser-gru.yaml");
+    try {
+        read_generator_config(file);
+        ADD_FAILURE() << "taken";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.what(), file +
+                                ": a recogniser's configuration, as `model: gru` says; `actformer train "
+                                "recogniser` takes it");
+    }
+}
+
 TEST(Methods, ReadConfigurationsOfTheFirstVersion) {
     const TempDir dir;
     write_file(dir / "old.yaml", "model: generator\nwidth: 64\n");

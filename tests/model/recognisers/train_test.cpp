@@ -197,6 +197,9 @@ TEST_F(TrainRecogniser, RefusesWhatCannotBeTrained) {
     expect_refused(train("r", "precision=double"), {"one of float32, float64", "double"});
     expect_refused(train("r", "bacth=3"), {"did you mean 'batch'"});
     expect_refused(run_actformer("train recogniser -c " + (dir / "toy.yaml").string() + " -o r"), {"--data"});
+    expect_refused(
+        run_actformer("train recogniser -c " + source("model/configs/actformer-small.yaml") + " -o r"),
+        {"actformer-small.yaml: a generator's configuration", "`actformer train generator` takes it"});
     EXPECT_FALSE(fs::exists(dir / "r"));
 }
 

@@ -284,11 +284,34 @@ TEST_F(Report, ScoresOfAnotherShapeAreNoFigures) {
 }
 
 TEST_F(Report, RefusesWhatIsNoSweep) {
-    EXPECT_NE(error_of([&] { read_measured({dir / "none"}); }).find("no results.json"), std::string::npos);
+    EXPECT_NE(error_of([&] { read_measured({dir / "none"}); }).find("none: no such file or folder"),
+              std::string::npos);
+    std::filesystem::create_directory(dir / "empty");
+    EXPECT_NE(error_of([&] { read_measured({dir / "empty"}); }).find("no results.json"), std::string::npos);
+    write(dir / "motions.h5", "");
+    EXPECT_NE(error_of([&] { read_measured({dir / "motions.h5"}); }).find("motions.h5: a file; the folder"),
+              std::string::npos);
     write(dir / "half" / "results.json", "{\"format\": 1, \"ro");
     EXPECT_NE(error_of([&] { read_measured({dir / "half"}); }).find("damaged"), std::string::npos);
     write(dir / "later" / "results.json", "{\"format\": 2, \"rows\": []}");
     EXPECT_NE(error_of([&] { read_measured({dir / "later"}); }).find("another version"), std::string::npos);
+}
+
+TEST_F(Report, RowsKnowTheOtherSideOfTheirComparison) {
+    const auto compared = [&](std::size_t count) {
+        const std::vector<Json> sides(count, Json::object());
+        write(dir / "two" / "results.json",
+              Json{{"format", 1}, {"comparison", true}, {"rows", sides}}.dump());
+        rows = Json::array({Json::object()});
+        read();
+        auto measured = read_measured({dir / "out", dir / "two"});
+        std::vector<Json> out;
+        const auto shown = details(measured);
+        for (const auto& row : shown["rows"]) out.push_back(row["compared"]);
+        return out;
+    };
+    EXPECT_EQ(compared(2), (std::vector<Json>{Json::array(), {1, 2}, {1, 2}}));
+    EXPECT_EQ(compared(3000), std::vector<Json>(3001, Json::array())) << "more than anybody can look at";
 }
 
 TEST_F(Report, WhatIsNotAsItWasWrittenIsTold) {

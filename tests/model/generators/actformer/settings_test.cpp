@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "model/generators/actformer/layers.hpp"
@@ -103,6 +104,19 @@ TEST(ModelCommand, PrintsTable6ForThePapersConfiguration) {
     const auto json = nlohmann::json::parse(run_actformer(line + " --json").output);
     EXPECT_EQ(json.at("generator").at("parameters"), 1'359'675);
     EXPECT_EQ(json.at("discriminator").at("parameters"), 5'174'593);
+}
+
+TEST(ModelCommand, SaysWhoseJointsItTakesAndKeepsItsColumns) {
+    const auto printed = run_actformer("model " + configs + "actformer-cmu.yaml");
+    ASSERT_EQ(printed.exit, 0) << printed.output;
+    EXPECT_TRUE(printed.output.starts_with("for NTU's 25 joints, as no --data is given\n\n"))
+        << printed.output;
+    std::istringstream lines(printed.output);
+    std::size_t width = 0;
+    for (std::string line; std::getline(lines, line); width = line.size()) {
+        const bool begins = width == 0;
+        EXPECT_TRUE(begins || line.empty() || line.size() == width) << line;
+    }
 }
 
 TEST(ModelCommand, TakesEveryGeneratorConfiguration) {
