@@ -1,28 +1,24 @@
 #include "base/text/loose_json.hpp"
 
-#include <unistd.h>
+#include <fstream>
 
-#include <vector>
-
-#include "base/files/file.hpp"
+#include "base/error.hpp"
 #include "base/text/json.hpp"
 
 namespace actformer::loose {
 
 using Json = nlohmann::ordered_json;
 
-namespace {
-
-constexpr std::uint64_t largest_file = std::uint64_t{256} << 20;
-
-}  // namespace
-
 nlohmann::ordered_json read(const std::filesystem::path& path) {
-    if (std::error_code ignored;
-        !std::filesystem::is_regular_file(path, ignored) || ::access(path.c_str(), R_OK) != 0)
-        return Json(Json::value_t::discarded);
-    std::vector<char> scratch;
-    const auto text = read_text(path, scratch, largest_file);
+    constexpr std::uintmax_t mib = std::uintmax_t{1} << 20, most = 256;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return Json(Json::value_t::discarded);
+    const auto size = std::filesystem::file_size(path, ignored);
+    if (!ignored && size > most * mib)
+        throw Error("{}: {} MiB, and a file of this kind has at most {} MiB; is it the right one?",
+                    path.string(), (size + mib - 1) / mib, most);
+    std::ifstream file(path, std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(file), {});
     expect_shallow_json(text, path);
     return Json::parse(text, nullptr, false);
 }
