@@ -108,12 +108,14 @@ TEST_F(WrongKinds, AComparisonLooksBeforeItScores) {
 }
 
 TEST_F(WrongKinds, EndingsOfOtherFilesAreRefused) {
-    for (const auto* call :
-         {"features --recogniser r.h5 toy -o a.csv", "classify --recogniser r.h5 toy -o a.h5",
-          "report x -o a.tex", "report x --csv a.html", "report x --latex a.html",
-          "score --real-features f.h5 --generated-features f.h5 -o a.html",
-          "import recogniser a.tar --data toy -o a.gif"})
-        refused(call, {"the file written is not a ", "let its name end in "});
+    const std::vector<std::string> calls{"features --recogniser r.h5 toy -o a.csv",
+                                         "classify --recogniser r.h5 toy -o a.h5",
+                                         "report x -o a.tex",
+                                         "report x --csv a.html",
+                                         "report x --latex a.html",
+                                         "score --real-features f.h5 --generated-features f.h5 -o a.html",
+                                         "import recogniser " + at("r.h5") + " --data toy -o a.gif"};
+    for (const auto& call : calls) refused(call, {"the file written is not a ", "let its name end in "});
     export_motions();
     ASSERT_EQ(
         run_actformer("classify --recogniser " + at("r.h5") + " " + at("m.h5") + " -o " + at("plain")).exit,
