@@ -114,7 +114,8 @@ std::vector<std::size_t> Dataset::split(const std::string& name) const {
     if (found == header_.splits.end() && name != "all") {
         const auto known = split_names();
         auto remedy = suggestion(name, known);
-        if (remedy.empty()) remedy = "; take one of these, or ingest the raw data with other splits";
+        if (remedy.empty())
+            remedy = "; take one of these, or ingest the raw data with --split NAME=FIELD:VALUE,...";
         throw Error("{}: no split '{}'; there is {}{}", folder_.string(), name, fmt::join(known, ", "),
                     remedy);
     }
