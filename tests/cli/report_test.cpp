@@ -270,9 +270,10 @@ TEST_F(ReportPage, RefusesWhatIsNoSweepAndSaysWhy) {
 
 TEST_F(ReportPage, ReplacesReportsAndNoFilesOfOthers) {
     write_file(dir / "mine", "<!doctype html> table,row,dataset,metric, Written by `actformer report`");
+    fs::copy_file(swept().at("ntu-1p.h5"), dir / "motions");
     for (const auto* option : {"-o ", "--csv ", "--latex "}) {
         expect_refused(report(option + at("mine")), {"mine: is there, and holds no ", "--force"});
-        expect_refused(report(option + swept().at("ntu-1p.h5")), {"ntu-1p.h5: is there"});
+        expect_refused(report(option + at("motions")), {"motions: is there"});
         fs::copy_file(dir / "mine", dir / "other");
         EXPECT_EQ(report(option + at("other") + " --force").exit, 0);
         const auto made = read_file(dir / "other");

@@ -20,6 +20,10 @@ void add_floats(hid_t file, const char* name, const hdf5::Shape& shape) {
     const Handle set(
         H5Dcreate2(file, name, H5T_IEEE_F32LE, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
     ASSERT_TRUE(set);
+    const std::vector<float> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())));
+    if (!values.empty()) {
+        ASSERT_GE(H5Dwrite(set.get(), H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+    }
 }
 
 TEST(HostileShard, LimbLengthsOfAnotherShapeAreDamage) {
