@@ -75,7 +75,7 @@ const Stored six{"7", 6, bytes_of<float>({1, 2, 3, 4, 5, 6})};
 
 std::string number(std::uint64_t value, int bytes) {
     std::string out;
-    for (int b = 0; b < bytes; ++b) out += static_cast<char>(value >> (8 * b) & 255);
+    for (; bytes > 0; --bytes, value >>= 8) out += static_cast<char>(value & 255);
     return out;
 }
 
