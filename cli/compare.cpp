@@ -55,17 +55,15 @@ struct Compared {
 
 /// Weights name their method; motions do not.
 bool holds_motions(const fs::path& path) {
-    return fs::is_regular_file(path) && !hdf5::Reader(path).has_attribute("model");
+    return fs::is_regular_file(path) && ingest::own_kind(hdf5::Reader(path)) != ingest::own::generator;
 }
 
 /// Before anything is scored.
 void check_inputs(const CompareOptions& options) {
-    for (const auto& path : {options.a, options.b}) {
-        const auto kind = ingest::own_kind(path);
-        if (!kind.empty() && kind != ingest::own::generator && kind != ingest::own::training)
+    for (const auto& path : {options.a, options.b})
+        if (const auto kind = ingest::other_kind(path, ingest::own::generator); !kind.empty())
             throw Error("{}: {}; a generator (a training or weights) or a motions file is expected",
                         path.string(), kind);
-    }
     ingest::Dataset(ingest::one_dataset_at(options.real)).split(options.split);
 }
 
@@ -252,8 +250,8 @@ void add_table(reports::Sweep& sweep, const std::vector<Compared>& all, const fs
 
 /// A folder that holds something else would lose it, or be taken for the comparison.
 void refuse_other_than_comparisons(const fs::path& out) {
-    if (!fs::exists(out / "results.json")) ingest::refuse_other_folder(out, "a comparison");
     if (!fs::exists(out / "results.json")) {
+        ingest::refuse_other_folder(out, "a comparison");
         if (fs::exists(out / "report.html"))
             throw Error("{}: holds a report.html, and no comparison; choose another -o", out.string());
         return;

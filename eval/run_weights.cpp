@@ -20,7 +20,7 @@ std::filesystem::path weights_of(const std::filesystem::path& named) {
     if (!std::filesystem::is_directory(run, ignored)) return run;
     for (const auto* name : {"weights-best.h5", "weights-average.h5", "weights-last.h5"})
         if (std::filesystem::exists(run / name, ignored)) return run / name;
-    if (const auto kind = ingest::own_kind(run); !kind.empty() && kind != ingest::own::training)
+    if (const auto kind = ingest::other_kind(run, ingest::own::training); !kind.empty())
         throw Error("{}: {}; a training or weights (.h5) are expected", run.string(), kind);
     throw Error("{}: holds no weights-*.h5; is it the folder of a training that has done an epoch?",
                 run.string());

@@ -7,8 +7,8 @@
 
 namespace actformer::loose {
 
-/// What the file says; discarded (neither object nor list) where it cannot be read or is no JSON. Throws Error where it has more than 256 MiB and, naming the line, where
-/// lists and objects are too deep (see deepest_json).
+/// What the file says; discarded (neither object nor list) where it cannot be read or is no JSON. Throws Error where it has
+/// more than 256 MiB and, naming the line, where lists and objects are too deep (see deepest_json).
 nlohmann::ordered_json read(const std::filesystem::path& path);
 
 /// The member of an object; null where there is none. Refers into `object`.

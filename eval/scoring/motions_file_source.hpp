@@ -19,9 +19,9 @@ struct MotionsFileOptions {
 };
 
 /// Every motion whole, or its first frames; motions of one length come together. Labels are known where every motion has the
-/// attribute `label` or a name that tells its action (A001_0, S001C002P003R001A001). Throws Error naming the file, the motion and the remedy: for a file that cannot
-/// be read or holds no motions, motions of different joints or channels, motions shorter than `frames` or without frames;
-/// and, as they come, for numbers that are not finite.
+/// attribute `label` or a name that tells its action (A001_0, S001C002P003R001A001). Throws Error naming the file, the motion and
+/// the remedy: for a file that cannot be read or holds no motions, motions of different joints or channels, motions shorter than
+/// `frames` or without frames; and, as they come, for numbers that are not finite.
 std::unique_ptr<MotionSource> open_motions(const std::filesystem::path& file,
                                            MotionsFileOptions options = {});
 

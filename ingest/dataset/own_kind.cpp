@@ -43,6 +43,12 @@ std::string_view own_kind(const fs::path& path) {
     }
 }
 
+std::string_view other_kind(const fs::path& path, std::string_view wanted) {
+    const auto kind = own_kind(path);
+    const bool of_weights = wanted == own::generator || wanted == own::recogniser;
+    return kind == wanted || (of_weights && kind == own::training) ? std::string_view() : kind;
+}
+
 void refuse_other_than_motions(const hdf5::Reader& file, const std::string& where) {
     static const std::map<std::string_view, const char*> remedies{
         {own::generator, "`actformer generate` makes motions with them"},
@@ -58,8 +64,7 @@ void refuse_other_folder(const fs::path& out, std::string_view wanted) {
     std::error_code unread;
     if (fs::exists(out, unread) && !fs::is_directory(out, unread))
         throw Error("{}: a file, and a folder is expected; choose another -o", out.string());
-    const auto kind = own_kind(out);
-    if (!kind.empty() && kind != wanted)
+    if (const auto kind = other_kind(out, wanted); !kind.empty())
         throw Error("{}: holds {}, not {}; choose another -o", out.string(), kind, wanted);
 }
 

@@ -23,6 +23,9 @@ std::string_view own_kind(const hdf5::Reader& file);
 /// The same of a folder or file. Empty too where it cannot be read.
 std::string_view own_kind(const std::filesystem::path& path);
 
+/// The kind of what lies at `path` where it is none that is `wanted`; else empty. A training's folder has weights of either kind.
+std::string_view other_kind(const std::filesystem::path& path, std::string_view wanted);
+
 /// Throws Error, with the remedy, for a file that this program wrote and that holds no motions.
 void refuse_other_than_motions(const hdf5::Reader& file, const std::string& where);
 

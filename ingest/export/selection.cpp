@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "base/error.hpp"
+#include "base/text/first_few.hpp"
 #include "base/text/printable.hpp"
 #include "base/text/suggestion.hpp"
 #include "ingest/dataset/classes.hpp"
@@ -35,17 +36,14 @@ std::string in_words(const Selection& selection) {
 
 /// "; it has clips of walking, running"; of many the first.
 std::string classes_there(const ClipSource& source) {
-    constexpr std::size_t most = 8;
     const auto& names = source.subjects().classes;
     std::set<std::uint32_t> labels;
     for (const auto& clip : source.clips())
         if (clip.label && *clip.label < names.size()) labels.insert(*clip.label);
     std::vector<std::string> there;
-    for (const auto label : labels)
-        if (there.size() < most) there.push_back(printable(names[label]));
-    if (there.empty()) return "";
-    return fmt::format("; it has clips of {}{}", fmt::join(there, ", "),
-                       labels.size() > most ? fmt::format(" and {} more", labels.size() - most) : "");
+    for (const auto label : labels) there.push_back(printable(names[label]));
+    constexpr std::size_t most = 8;
+    return there.empty() ? "" : "; it has clips of " + few_and_more(there, most);
 }
 
 }  // namespace

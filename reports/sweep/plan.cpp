@@ -77,9 +77,8 @@ class Planner {
 
     /// What lies there where it cannot be `wanted`; else empty.
     static std::string other_than(std::string_view wanted, const std::string& at) {
-        const auto is = ingest::own_kind(at);
-        const bool may_be = is == wanted || (is == ingest::own::training && wanted != ingest::own::dataset);
-        return is.empty() || may_be ? "" : fmt::format("{}: holds {}, not {}", at, is, wanted);
+        const auto is = ingest::other_kind(at, wanted);
+        return is.empty() ? "" : fmt::format("{}: holds {}, not {}", at, is, wanted);
     }
 
     /// What should be there, and needs no job then; where it is not, `job` stands for it and says so.

@@ -22,32 +22,20 @@ void check_id(const YAML::Node& where, const std::string& id, const YamlPlace& p
         place.fail(where, fmt::format("a table cannot be called '{}': letters, digits, - and _", id));
 }
 
-/// `room`: figures that may still be read, of all tables.
-PaperTable read_own(const YAML::Node& node, const std::string& id, const YamlPlace& place,
-                    std::size_t& room) {
-    TableReader reader(node, place, id, room);
-    auto table = reader.read_own();
-    room = reader.room();
-    return table;
-}
-
 void add_own_table(std::vector<PaperTable>& tables, const YAML::Node& node, const std::string& id,
                    const YamlPlace& place, std::size_t& room) {
     check_id(node, id, place);
     place.expect_map(node, fmt::format("table '{}'", id));
     const auto found = std::ranges::find(tables, id, &PaperTable::id);
     const bool new_rows = found != tables.end() && node.size() == 1 && node["rows"];
-    if (found == tables.end()) {
-        tables.push_back(read_own(node, id, place, room));
-    } else if (new_rows || same_columns(*found, read_own(node, id, place, room))) {
-        TableReader reader(node, place, id, room);
-        reader.add_rows_to(*found);
-        room = reader.room();
-    } else {
+    if (found == tables.end())
+        tables.push_back(TableReader(node, place, id, room).read_own());
+    else if (new_rows || same_columns(*found, TableReader(node, place, id, room).read_own()))
+        TableReader(node, place, id, room).add_rows_to(*found);
+    else
         place.fail(node, fmt::format("there is a table '{}' with other columns: give this one another name, "
                                      "or just rows that it is to get",
                                      id));
-    }
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ std::vector<PaperTable> all_tables() {
 
 PaperTable read_table(std::string_view yaml, const std::string& file) {
     const YamlPlace place{file};
-    return TableReader(parsed(yaml, file), place, std::filesystem::path(file).stem().string()).read();
+    auto room = most_figures;
+    return TableReader(parsed(yaml, file), place, std::filesystem::path(file).stem().string(), room).read();
 }
 
 const std::vector<PaperTable>& paper_tables() {

@@ -22,15 +22,12 @@ class TableReader {
     using Node = YAML::Node;
 
   public:
-    /// `room`: figures that may be read.
-    TableReader(const Node& root, const YamlPlace& place, std::string id, std::size_t room = most_figures)
+    /// `room`: figures that may still be read, of which it takes its own.
+    TableReader(const Node& root, const YamlPlace& place, std::string id, std::size_t& room)
         : place_(place), root_(root), room_(room) {
         table_.id = std::move(id);
         place_.expect_map(root_, "a table");
     }
-
-    /// What is left of it.
-    std::size_t room() const { return room_; }
 
     /// One of a paper, which says what it is.
     PaperTable read() {
@@ -244,7 +241,7 @@ class TableReader {
 
     const YamlPlace& place_;
     Node root_;
-    std::size_t room_;
+    std::size_t& room_;
     PaperTable table_;
 };
 

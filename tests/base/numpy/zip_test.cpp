@@ -5,30 +5,12 @@
 #include <zlib.h>
 
 #include "base/error.hpp"
+#include "tests/support/zip_parts.hpp"
 
 using namespace actformer;
+using actformer::test::deflate_raw, actformer::test::number;
 
 namespace {
-
-std::string number(std::uint64_t value, int bytes) {
-    std::string out;
-    for (int b = 0; b < bytes; ++b) out += static_cast<char>(value >> (8 * b) & 255);
-    return out;
-}
-
-std::string deflate_raw(const std::string& text) {
-    z_stream stream{};
-    deflateInit2(&stream, 9, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-    std::string out(deflateBound(&stream, text.size()), '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-    stream.avail_in = static_cast<uInt>(text.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    deflate(&stream, Z_FINISH);
-    out.resize(stream.total_out);
-    deflateEnd(&stream);
-    return out;
-}
 
 /// An archive of one member `a` with this text, and what may be odd about it.
 struct Made {

@@ -10,9 +10,11 @@
 #include "base/error.hpp"
 #include "base/pickle/pickle.hpp"
 #include "tests/support/pickle_text.hpp"
+#include "tests/support/zip_parts.hpp"
 
 using namespace actformer;
 using namespace actformer::test::pickled;
+using actformer::test::deflate_raw, actformer::test::number;
 
 namespace {
 
@@ -72,26 +74,6 @@ std::string old_file(const std::string& object, const std::vector<Stored>& stora
 }
 
 const Stored six{"7", 6, bytes_of<float>({1, 2, 3, 4, 5, 6})};
-
-std::string number(std::uint64_t value, int bytes) {
-    std::string out;
-    for (; bytes > 0; --bytes, value >>= 8) out += static_cast<char>(value & 255);
-    return out;
-}
-
-std::string deflate_raw(const std::string& text) {
-    z_stream stream{};
-    deflateInit2(&stream, 9, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY);
-    std::string out(deflateBound(&stream, text.size()), '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-    stream.avail_in = static_cast<uInt>(text.size());
-    stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = static_cast<uInt>(out.size());
-    deflate(&stream, Z_FINISH);
-    out.resize(stream.total_out);
-    deflateEnd(&stream);
-    return out;
-}
 
 /// A zip archive of torch.save: its list, and what that says of each storage.
 class Zip {
