@@ -14,6 +14,7 @@
 #include "base/process/peer.hpp"
 #include "base/process/process.hpp"
 #include "base/process/usage.hpp"
+#include "base/text/counted.hpp"
 #include "base/threads/parallel.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"

@@ -14,6 +14,7 @@
 #include "base/process/peer.hpp"
 #include "base/process/process.hpp"
 #include "base/process/usage.hpp"
+#include "base/text/counted.hpp"
 #include "cli/bench.hpp"
 #include "cli/bench_babel.hpp"
 #include "cli/common_options.hpp"

@@ -15,6 +15,7 @@
 #include "base/error.hpp"
 #include "base/process/peer.hpp"
 #include "base/process/process.hpp"
+#include "base/text/counted.hpp"
 #include "base/text/printable.hpp"
 #include "cli/bench.hpp"
 #include "cli/say.hpp"
@@ -120,8 +121,8 @@ void print_layers(const model::WorkTime& work) {
 
 void print_text(const model::MethodSpeed& test, const std::vector<Row>& rows) {
     const auto& r = test.request();
-    say("{}\n{} on {}: {} person{}, {} classes, {} frames, batches of {}\n", test.machine(), r.method,
-        test.device(), r.persons, r.persons == 1 ? "" : "s", r.classes, r.frames, r.batch);
+    say("{}\n{} on {}: {}, {}, {}, batches of {}\n", test.machine(), r.method, test.device(),
+        counted(r.persons, "person"), counted(r.classes, "class"), counted(r.frames, "frame"), r.batch);
     say("{:<24} {:>10} {:>15} {:>7}\n", "seconds", "actformer", "PyTorch, eager", "ratio");
     for (const auto& row : rows)
         if (row.peer)

@@ -1,12 +1,12 @@
 // actformer export: clips for other programs.
 #include "ingest/export/export.hpp"
+#include "base/text/counted.hpp"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
-#include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
 #include "cli/say_json.hpp"

@@ -1,5 +1,6 @@
 // actformer features: what the recogniser sees in motions, for scoring.
 #include "eval/scoring/features.hpp"
+#include "base/text/counted.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/format.hpp"
 #include "cli/motion_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"

@@ -4,9 +4,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/text/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
 #include "cli/say_json.hpp"
@@ -39,8 +39,7 @@ void run(const GenerateOptions& options) {
                                         {"frames", made.frames}});
     else
         say("{}: {} of {}, each ({}, {}, {})\n", file, counted(made.motions, "motion"),
-            made.classes == 1 ? "1 class" : fmt::format("{} classes", made.classes),
-            made.persons * made.numbers, made.nodes, made.frames);
+            counted(made.classes, "class"), made.persons * made.numbers, made.nodes, made.frames);
 }
 
 }  // namespace

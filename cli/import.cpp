@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files/nearest_file.hpp"
+#include "base/text/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/format.hpp"
 #include "cli/say.hpp"
 #include "cli/say_json.hpp"
 #include "ingest/export/foreign.hpp"
@@ -24,8 +24,7 @@ void print(bool json, const std::string& file, const std::string& what, std::uin
         say_json(nlohmann::ordered_json{
             {"file", file}, {"kind", what}, {"parameters", numbers}, {"classes", classes}});
     else
-        say("{}: {}, {} in {}\n", file, what, counted(numbers, "number"),
-            classes == 1 ? "1 class" : fmt::format("{} classes", classes));
+        say("{}: {}, {} in {}\n", file, what, counted(numbers, "number"), counted(classes, "class"));
 }
 
 template <typename Request>

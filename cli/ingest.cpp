@@ -6,6 +6,7 @@
 
 #include "base/files/full_path.hpp"
 #include "base/process/shipped.hpp"
+#include "base/text/counted.hpp"
 #include "base/text/printable.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/files/nearest_file.hpp"
+#include "base/text/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/say.hpp"

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "base/error.hpp"
+#include "base/text/counted.hpp"
 #include "cli/commands.hpp"
-#include "cli/format.hpp"
 #include "cli/say.hpp"
 #include "cli/say_json.hpp"
 #include "cli/shipped_option.hpp"

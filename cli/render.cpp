@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "base/files/output.hpp"
+#include "base/text/counted.hpp"
 #include "cli/commands.hpp"
-#include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
 #include "reports/motions/gather.hpp"
@@ -64,7 +64,7 @@ void render(const RenderOptions& options) {
                                                             counted(there, "motion"))
                                               : counted(motions.size(), "motion");
     say("{}: {}{}, {:.0f} kB\n", options.output.string(), drawn,
-        frames > 0 ? fmt::format(", {} frames", frames) : "", kilobytes);
+        frames > 0 ? ", " + counted(frames, "frame") : "", kilobytes);
 }
 
 }  // namespace

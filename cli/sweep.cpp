@@ -9,10 +9,10 @@
 
 #include "base/error.hpp"
 #include "base/process/process.hpp"
+#include "base/text/counted.hpp"
 #include "base/threads/parallel.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
 #include "cli/say_json.hpp"

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/files/aside.hpp"
+#include "base/text/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/format.hpp"
 #include "cli/progress.hpp"

@@ -10,6 +10,7 @@
 #include "base/files/file.hpp"
 #include "base/files/full_path.hpp"
 #include "base/process/interruption.hpp"
+#include "base/text/counted.hpp"
 #include "base/text/printable.hpp"
 #include "base/threads/parallel.hpp"
 #include "base/threads/worker.hpp"
@@ -105,8 +106,8 @@ class Ingest {
         std::uint64_t kept = 0;
         for (const auto& tranche : workplace.finished()) kept += tranche.files;
         if (!workplace.finished().empty())
-            return fmt::format("{} files are done and kept in {}; the same command goes on from there", kept,
-                               aside.string());
+            return fmt::format("{} done and kept in {}; the same command goes on from there",
+                               counted(kept, "file"), aside.string());
         workplace.discard();
         return "nothing was done yet that could be kept";
     }
@@ -420,8 +421,9 @@ class Ingest {
         std::string first = summary_.first_rejections.empty() ? "" : summary_.first_rejections[0];
         for (const auto& tranche : tranches)
             if (first.empty() && !tranche.left_out.empty()) first = tranche.left_out[0].text();
-        return (summary_.files == 0 ? fmt::format("no {} file in it", fmt::join(format_.extensions(), ", "))
-                                    : fmt::format("none of {} files gave a clip", summary_.files)) +
+        return (summary_.files == 0
+                    ? fmt::format("no {} file in it", fmt::join(format_.extensions(), ", "))
+                    : fmt::format("none of {} gave a clip", counted(summary_.files, "file"))) +
                (first.empty() ? "; is it the raw data of this format?" : "; the first: " + first);
     }
 

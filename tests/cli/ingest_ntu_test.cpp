@@ -184,7 +184,7 @@ TEST_F(IngestNtu, RefusesWhatIsWiderThanAClip) {
     fs::create_directories(raw());
     expect_refused(ingest(), {"no .skeleton file there"});
     clip("S001C001P001R001A001", "nonsense");
-    expect_refused(ingest(), {"none of 1 files gave a clip", "line 1: 'nonsense'"});
+    expect_refused(ingest(), {"none of 1 file gave a clip", "line 1: 'nonsense'"});
     clip("S001C001P001R001A001", plain_clip());
     expect_refused(ingest("--missing " + (dir / "none").string()), {"none: cannot be read"});
     expect_refused(ingest("--device no-such-thing"), {"there is no OpenCL device 'no-such-thing'"});

@@ -58,7 +58,7 @@ std::string part_of(const std::string& feat_p, std::size_t from_end) {
                                    end - (begin == std::string::npos ? 0 : begin + 1)));
 }
 
-std::string counted(const std::map<std::string, std::uint64_t>& counts) {
+std::string with_counts(const std::map<std::string, std::uint64_t>& counts) {
     std::vector<std::pair<std::uint64_t, std::string>> sorted;
     for (const auto& [name, count] : counts) sorted.emplace_back(count, name);
     std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
@@ -178,7 +178,7 @@ void BabelFormat::remark() {
         remarks_.push_back(fmt::format("{} of {} sequences have no file here: {}", missing.size(),
                                        sequences_.size(), first_few(missing)));
     if (!others.empty())
-        remarks_.push_back(fmt::format("labels of categories that are no classes: {}", counted(others)));
+        remarks_.push_back(fmt::format("labels of categories that are no classes: {}", with_counts(others)));
     if (without > 0) remarks_.push_back(fmt::format("labels without a category: {}", without));
     if (!extra.empty())
         remarks_.push_back(fmt::format("not used, as its labels are those of several annotators: {}",

@@ -344,7 +344,7 @@ TEST_F(MotionsOnDevice, WhyNoClipIsLeftIsSaid) {
                [](hdf5::Writer& file) { file.attribute("representation", std::string("xyz")); });
     options.scale = 0.001;
     EXPECT_EQ(fault(),
-              fmt::format("{0}: none of 1 files gave a clip; the first: {0}/a.h5: 'dance': positions in the "
+              fmt::format("{0}: none of 1 file gave a clip; the first: {0}/a.h5: 'dance': positions in the "
                           "public layout stay as they are: no --clean, --scale or --up for them",
                           (dir / "raw").string()));
 }

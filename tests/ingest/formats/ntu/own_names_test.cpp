@@ -193,7 +193,7 @@ TEST_F(OwnNamesIngest, RefusesWhatMakesNoSense) {
     command.own.persons = 101;
     EXPECT_NE(refusal(command).find("101 persons a clip are too many"), std::string::npos);
     command.own.persons = 3;
-    EXPECT_NE(refusal(command).find("none of 1 files gave a clip"), std::string::npos) << refusal(command);
+    EXPECT_NE(refusal(command).find("none of 1 file gave a clip"), std::string::npos) << refusal(command);
 }
 
 }  // namespace
