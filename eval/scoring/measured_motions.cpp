@@ -4,9 +4,6 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/files/file.hpp"
-#include "base/hdf5/reader.hpp"
-#include "base/hdf5/writer.hpp"
 #include "ingest/dataset/body_parts.hpp"
 #include "ingest/dataset/layout.hpp"
 #include "ingest/dataset/subjects.hpp"
@@ -94,31 +91,6 @@ MotionMeasures MeasuredSource::measures() const {
     std::vector<std::size_t> order(rows_.size());
     for (std::size_t i = 0; i < rows_.size(); ++i) order[rows_[i]] = i;
     return subset(passed_, order);
-}
-
-void write_measures(const std::filesystem::path& path, const MotionMeasures& measures) {
-    hdf5::Writer file(measures.size() * (measures.columns + 4) * sizeof(float) + 65536);
-    const hsize_t n = measures.size();
-    const auto write = [&](const char* name, const std::vector<float>& values) {
-        if (!values.empty()) file.write<float>(name, {n, values.size() / n}, values);
-    };
-    write("limb_acceleration", measures.limb_acceleration);
-    write("root_acceleration", measures.root_acceleration);
-    write("root_speed", measures.root_speed);
-    write("foot_sliding", measures.foot_sliding);
-    write("distances", measures.distances);
-    write_whole(path, file.checked_image());
-}
-
-MotionMeasures read_measures(const std::filesystem::path& path) {
-    const hdf5::Reader file(path);
-    const auto read = [&](const char* name) {
-        return file.has(name) ? file.read<float>(name) : std::vector<float>();
-    };
-    MotionMeasures out{read("limb_acceleration"), read("root_acceleration"), read("root_speed"),
-                       read("foot_sliding"),      read("distances"),         0};
-    if (!out.distances.empty()) out.columns = out.distances.size() / out.size();
-    return out;
 }
 
 }  // namespace actformer::eval

@@ -49,9 +49,4 @@ class MeasuredSource final : public MotionSource {
     MotionMeasures passed_;
 };
 
-/// HDF5: limb_acceleration, root_acceleration, root_speed, foot_sliding (n), distances (n, pairs), those that there are. Writing throws Error as write_whole
-/// does, reading as hdf5::Reader.
-void write_measures(const std::filesystem::path& path, const MotionMeasures& measures);
-MotionMeasures read_measures(const std::filesystem::path& path);
-
 }  // namespace actformer::eval

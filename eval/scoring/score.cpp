@@ -7,6 +7,7 @@
 #include "base/files/file.hpp"
 #include "base/files/work_folder.hpp"
 #include "eval/scoring/measured_motions.hpp"
+#include "eval/scoring/measures_file.hpp"
 #include "eval/scoring/real_features.hpp"
 #include "ingest/dataset/dataset_json.hpp"
 

@@ -11,7 +11,7 @@
 #include "base/hdf5/writer.hpp"
 #include "eval/metrics/confusion.hpp"
 #include "eval/scoring/features_file.hpp"
-#include "eval/scoring/measured_motions.hpp"
+#include "eval/scoring/measures_file.hpp"
 #include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/common_joints.hpp"
 #include "ingest/dataset/dataset.hpp"
