@@ -1,8 +1,5 @@
 #include "model/generators/generator_file.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
@@ -19,18 +16,6 @@ std::string text_of(const hdf5::Reader& file, const std::string& name, const std
     const auto texts = file.attribute_texts(name);
     if (texts.size() != 1) throw Error("{}: attribute '{}' is not one text: damaged", where, name);
     return texts[0];
-}
-
-std::vector<Array> read_weights(const hdf5::Reader& file, const std::string& where) {
-    std::vector<Array> weights;
-    for (const auto& name : file.names()) {
-        const auto shape = file.shape(name);
-        auto values = file.read<float>(name);
-        if (!std::ranges::all_of(values, [](float v) { return std::isfinite(v); }))
-            throw Error("{}: '{}' holds numbers that are not finite; take earlier weights", where, name);
-        weights.push_back({name, {shape.begin(), shape.end()}, std::move(values)});
-    }
-    return weights;
 }
 
 }  // namespace
@@ -59,7 +44,7 @@ GeneratorFile load_generator(const fs::path& path) {
     if (!subjects) throw Error("{}: does not say whose motions it generates: damaged", where);
     auto config = generator_config(method_named(text_of(file, "model", where), where));
     config.load_text(text_of(file, "configuration", where), where);
-    return {at, std::move(config), std::move(*subjects), checksum_file(at), read_weights(file, where)};
+    return {at, std::move(config), std::move(*subjects), checksum_file(at), read_arrays(file, where)};
 }
 
 }  // namespace actformer::model

@@ -1,5 +1,10 @@
 #include "model/nn/weights_file.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+
 namespace actformer::model {
 
 hdf5::Writer weights_writer(const std::vector<Array>& arrays) {
@@ -15,6 +20,18 @@ hdf5::Writer weights_writer(const std::vector<Array>& arrays) {
         std::visit(write, array.values);
     }
     return file;
+}
+
+std::vector<Array> read_arrays(const hdf5::Reader& file, const std::string& where) {
+    std::vector<Array> arrays;
+    for (const auto& name : file.names()) {
+        const auto shape = file.shape(name);
+        auto values = file.read<float>(name);
+        if (!std::ranges::all_of(values, [](float v) { return std::isfinite(v); }))
+            throw Error("{}: '{}' holds numbers that are not finite; take earlier weights", where, name);
+        arrays.push_back({name, {shape.begin(), shape.end()}, std::move(values)});
+    }
+    return arrays;
 }
 
 }  // namespace actformer::model

@@ -9,6 +9,7 @@
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
 #include "base/text/json.hpp"
+#include "base/text/loose_json.hpp"
 
 namespace actformer::model {
 namespace fs = std::filesystem;
@@ -101,8 +102,14 @@ void save_checkpoint(const fs::path& folder, const Checkpoint& checkpoint) {
 std::optional<Checkpoint> read_checkpoint(const fs::path& path) {
     if (own_checksum_of_file(path) != OwnChecksum::right) return std::nullopt;
     const hdf5::Reader file(path);
+    if (!file.has(progress) || !file.has_attribute(steps_done)) return std::nullopt;
+    const auto steps = file.attribute_numbers(steps_done);
+    const auto states = file.read_strings(progress);
+    if (steps.size() != 1 || steps[0] < 0 || states.size() != 1) return std::nullopt;
     Checkpoint checkpoint;
-    checkpoint.step = static_cast<std::uint64_t>(file.attribute_numbers(steps_done).at(0));
+    checkpoint.step = static_cast<std::uint64_t>(steps[0]);
+    checkpoint.state = json_or_discarded<Json>(states[0]);
+    if (!checkpoint.state.is_object()) return std::nullopt;
     for (const auto& name : file.names()) {
         if (name == progress) continue;
         const auto shape = file.shape(name);
@@ -113,9 +120,6 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& path) {
             array.values = file.read<float>(name);
         checkpoint.arrays.push_back(std::move(array));
     }
-    const auto state = file.read_strings(progress).at(0);
-    expect_shallow_json(state, path);
-    checkpoint.state = Json::parse(state);
     return checkpoint;
 }
 
@@ -129,7 +133,7 @@ std::optional<Checkpoint> newest_checkpoint(const fs::path& folder, const std::s
             continue;
         }
         if (auto checkpoint = read_checkpoint(files[i])) {
-            if (const auto whose = checkpoint->state.value("model", "unknown"); whose != model)
+            if (const auto whose = loose::text(checkpoint->state, "model"); whose != model)
                 throw Error("{}: a checkpoint of {}, not of {}; choose another -o", files[i].string(), whose,
                             model);
             if (!earlier.empty())

@@ -32,7 +32,9 @@ class Loop {
         if (events_.note && leads()) events_.note(line);
     }
     void resume();
+    void take_over(const Checkpoint& checkpoint);
     void compare_data(const Json& state) const;
+    void say_where_it_goes_on() const;
     void broadcast();
     std::vector<double> read_sums();
     void read_losses();
@@ -124,36 +126,47 @@ void Loop::compare_data(const Json& state) const {
 }
 
 void Loop::resume() {
-    const auto found =
-        newest_checkpoint(folder_->path(), task_.model, [this](const std::string& line) { say(line); });
-    if (found) {
-        const auto& state = found->state;
-        compare_data(state);
-        kept_step_ = step_ = found->step;
-        learner_.load(found->arrays, step_,
-                      fmt::format("{}: checkpoint of step {}", folder_->path().string(), step_));
-        const auto sums = state.at("sums").get<std::vector<double>>();
-        for (std::size_t i = 0; i < sums.size(); ++i) learner_.sums()[static_cast<std::int64_t>(i)] = sums[i];
-        epoch_seconds_ = state.at("seconds");
-        if (!validations_.take_from(state, epoch() < settings_.epochs))
-            say("the scores so far are of another recogniser or of other numbers of motions: the best "
-                "weights are chosen from now on");
-        else if (!validations_.scores() && validations_.best())
-            say(fmt::format("weights-best.h5 is of epoch {} and stays: nothing scores later ones",
-                            validations_.best()->epoch));
-        if (epoch() > settings_.epochs)
-            say(fmt::format("{} epochs are done, more than epochs={}: nothing is left to train", epoch(),
-                            settings_.epochs));
-        else if (epoch() == settings_.epochs)
-            say(fmt::format("all {} epochs are done: nothing is left to train; a larger epochs= goes on",
-                            epoch()));
-        else if (step_ % steps_an_epoch_ == 0)
-            say(fmt::format("going on after epoch {} of {}", epoch(), settings_.epochs));
-        else
-            say(fmt::format("going on after step {}, in epoch {} of {}", step_, epoch() + 1,
-                            settings_.epochs));
+    const auto note = [this](const std::string& line) { say(line); };
+    if (const auto found = newest_checkpoint(folder_->path(), task_.model, note)) {
+        const auto file = checkpoint_path(folder_->path(), found->step).string();
+        try {
+            take_over(*found);
+        } catch (const Json::exception& e) {
+            throw Error("{}: no progress of this version's ({}); choose another -o", file, e.what());
+        }
+        say_where_it_goes_on();
     }
-    if (const auto note = folder_->rewind_log(epoch()); !note.empty()) say(note);
+    if (const auto line = folder_->rewind_log(epoch()); !line.empty()) say(line);
+}
+
+void Loop::take_over(const Checkpoint& checkpoint) {
+    const auto& state = checkpoint.state;
+    compare_data(state);
+    kept_step_ = step_ = checkpoint.step;
+    learner_.load(checkpoint.arrays, step_,
+                  fmt::format("{}: checkpoint of step {}", folder_->path().string(), step_));
+    const auto sums = state.at("sums").get<std::vector<double>>();
+    for (std::size_t i = 0; i < sums.size(); ++i) learner_.sums()[static_cast<std::int64_t>(i)] = sums[i];
+    epoch_seconds_ = state.at("seconds");
+    if (!validations_.take_from(state, epoch() < settings_.epochs))
+        say("the scores so far are of another recogniser or of other numbers of motions: the best "
+            "weights are chosen from now on");
+    else if (!validations_.scores() && validations_.best())
+        say(fmt::format("weights-best.h5 is of epoch {} and stays: nothing scores later ones",
+                        validations_.best()->epoch));
+}
+
+void Loop::say_where_it_goes_on() const {
+    if (epoch() > settings_.epochs)
+        say(fmt::format("{} epochs are done, more than epochs={}: nothing is left to train", epoch(),
+                        settings_.epochs));
+    else if (epoch() == settings_.epochs)
+        say(fmt::format("all {} epochs are done: nothing is left to train; a larger epochs= goes on",
+                        epoch()));
+    else if (step_ % steps_an_epoch_ == 0)
+        say(fmt::format("going on after epoch {} of {}", epoch(), settings_.epochs));
+    else
+        say(fmt::format("going on after step {}, in epoch {} of {}", step_, epoch() + 1, settings_.epochs));
 }
 
 /// What rank 0 found in the folder, to all.

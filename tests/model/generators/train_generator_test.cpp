@@ -314,6 +314,15 @@ TEST_F(TrainGenerator, KeepsARunToItsSettingsItsDataAndOneTraining) {
                    {"on other data than " + toy().string(), "another -o"});
 }
 
+TEST_F(TrainGenerator, RefusesACheckpointWithoutTheProgressThatItNeeds) {
+    ASSERT_EQ(train("run", "epochs=1").exit, 0);
+    auto checkpoint = *model::newest_checkpoint(dir / "run", "actformer", [](const std::string&) {});
+    checkpoint.state.erase("sums");
+    model::save_checkpoint(dir / "run", checkpoint);
+    expect_refused(train("run", "epochs=2"),
+                   {newest(dir / "run"), "no progress of this version", "another -o"});
+}
+
 TEST_F(TrainGenerator, GoesBackBehindDamagedCheckpointsAndRefusesForeignOnes) {
     ASSERT_EQ(train("run", "epochs=2").exit, 0);
     const auto weights = read_file(dir / "run/weights-last.h5");

@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/files/file.hpp"
 #include "base/hdf5/reader.hpp"
+#include "base/hdf5/writer.hpp"
 #include "tests/support/temp_dir.hpp"
 
 using namespace actformer::model;
@@ -61,6 +63,27 @@ TEST(Checkpoint, NeverComesBackInPart) {
         damaged[n] = static_cast<char>(damaged[n] ^ 1);
         EXPECT_FALSE(comes_back(damaged)) << n;
     }
+}
+
+TEST(Checkpoint, IsNoOtherFileWithARightChecksum) {
+    const TempDir dir;
+    using Texts = std::vector<std::string>;
+    const auto comes_back = [&](const Texts& progress, const std::vector<std::int64_t>& steps) {
+        actformer::hdf5::Writer file(1000);
+        if (!progress.empty()) file.write_strings("progress", progress);
+        if (steps.size() == 1)
+            file.attribute("step", steps[0]);
+        else if (!steps.empty())
+            file.attribute("step", steps);
+        actformer::write_whole(dir / "other.h5", file.checked_image());
+        return read_checkpoint(dir / "other.h5").has_value();
+    };
+    const std::string deep(100'000, '[');
+    ASSERT_TRUE(comes_back({"{}"}, {3}));
+    for (const Texts& progress : {Texts{}, {"{}", "{}"}, {"[1]"}, {"{"}, {""}, {deep}})
+        EXPECT_FALSE(comes_back(progress, {3})) << (progress.empty() ? "none" : progress[0].substr(0, 9));
+    for (const std::vector<std::int64_t>& steps : {std::vector<std::int64_t>{}, {-1}, {3, 4}})
+        EXPECT_FALSE(comes_back({"{}"}, steps)) << steps.size();
 }
 
 TEST(Checkpoint, IsAFileThatHdf5Reads) {
