@@ -1,9 +1,10 @@
 // A file for readers that take a path.
 #pragma once
 
-#include <sys/mman.h>
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -11,11 +12,25 @@
 
 namespace actformer::fuzzing {
 
-/// A file that lives in memory and has a path.
+/// A path of this process alone, in memory where files can be there.
+inline std::filesystem::path path_in_memory(std::string_view name) {
+    const std::filesystem::path shared = "/dev/shm";
+    const auto folder = ::access(shared.c_str(), W_OK) == 0 ? shared : std::filesystem::temp_directory_path();
+    return folder / ("fuzz-" + std::string(name) + "-" + std::to_string(::getpid()));
+}
+
+/// Has a real path, without which HDF5's library opens nothing, and goes with the program unless that crashes.
 class FileInMemory {
   public:
-    FileInMemory() : file_(::memfd_create("fuzz", 0)), path_("/proc/self/fd/" + std::to_string(file_)) {}
-    ~FileInMemory() { ::close(file_); }
+    FileInMemory()
+        : path_(path_in_memory("file")),
+          file_(::open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600)) {
+        demand(file_ >= 0);
+    }
+    ~FileInMemory() {
+        ::close(file_);
+        ::unlink(path_.c_str());
+    }
     FileInMemory(const FileInMemory&) = delete;
     FileInMemory& operator=(const FileInMemory&) = delete;
     void write(std::string_view bytes) const {
@@ -25,8 +40,8 @@ class FileInMemory {
     const std::string& path() const { return path_; }
 
   private:
-    int file_;
     std::string path_;
+    int file_;
 };
 
 }  // namespace actformer::fuzzing

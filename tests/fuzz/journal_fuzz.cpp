@@ -1,7 +1,5 @@
 // libFuzzer: each line as one of an ingest's journal, behind its right checksum unless it begins with `!`; those behind an empty line as
 // announced shards. Work that is kept is kept again, and what does not fit is noted once.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +9,7 @@
 
 #include "base/checksum/checksum.hpp"
 #include "ingest/pipeline/journal.hpp"
+#include "tests/fuzz/file_in_memory.hpp"
 #include "tests/fuzz/fuzzing.hpp"
 
 using namespace actformer;
@@ -19,15 +18,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of files in memory, where there is one.
-fs::path memory() {
-    const fs::path shared = "/dev/shm";
-    return ::access(shared.c_str(), W_OK) == 0 ? shared : fs::temp_directory_path();
-}
-
 /// A working folder in memory, which goes with the program unless that crashes.
 struct Folder {
-    Folder() : path(memory() / ("fuzz-journal-" + std::to_string(::getpid()))) { fs::remove_all(path); }
+    Folder() : path(path_in_memory("journal")) { fs::remove_all(path); }
     ~Folder() { fs::remove_all(path); }
     fs::path path;
 };
