@@ -52,9 +52,11 @@ MappedFile::MappedFile(const std::filesystem::path& path) {
     }
     memory_ = static_cast<char*>(all);
     ::madvise(memory_, mapped_, MADV_SEQUENTIAL);
+    watch_ = MappingWatch(memory_, mapped_, path);
 }
 
 MappedFile::~MappedFile() {
+    watch_ = {};  // before others may have the same place
     if (memory_) ::munmap(memory_, mapped_);
 }
 
@@ -62,13 +64,17 @@ MappedFile::MappedFile(MappedFile&& other) noexcept
     : memory_(std::exchange(other.memory_, nullptr)),
       size_(other.size_),
       mapped_(other.mapped_),
-      released_(other.released_) {}
+      released_(other.released_),
+      read_(other.read_),
+      watch_(std::move(other.watch_)) {}
 
 MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
     std::swap(memory_, other.memory_);
     std::swap(size_, other.size_);
     std::swap(mapped_, other.mapped_);
     std::swap(released_, other.released_);
+    std::swap(read_, other.read_);
+    std::swap(watch_, other.watch_);
     return *this;
 }
 

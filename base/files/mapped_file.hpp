@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <string_view>
 
+#include "base/files/mapping_watch.hpp"
+
 namespace actformer {
 
-/// The file must not shrink while this lives: reading what is gone then ends the process, as with every mapped file.
+/// The file must not shrink while this lives: reading what is gone then ends the program, with a line (see mapping_watch.hpp).
 class MappedFile {
   public:
     /// Throws Error where it cannot be opened or mapped.
@@ -32,6 +34,7 @@ class MappedFile {
     std::size_t size_ = 0, mapped_ = 0;
     mutable std::size_t released_ = 0;  ///< bytes before this lie in no memory
     mutable std::size_t read_ = 0;      ///< bytes that release_read() was told of and has not released
+    MappingWatch watch_;
 };
 
 }  // namespace actformer

@@ -4,6 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
@@ -27,6 +32,30 @@ TEST(MappedFile, EndsInZerosWhateverItsLength) {
         file.release(end);
         EXPECT_EQ(file.text(), text) << "what was released can still be read, " << size;
     }
+}
+
+TEST(MappedFile, CutShortWhileItIsReadEndsTheProgramInALineThatNamesIt) {
+    const TempDir dir;
+    for (const auto* name : {"one", "other"}) write_file(dir / name, std::string(100'000, 'x'));
+    const auto read_what_is_gone = [&] {
+        MappedFile one(dir / "one");
+        const MappedFile other(dir / "other"), moved(std::move(one));
+        std::filesystem::resize_file(dir / "one", 10);
+        const volatile char* last = &moved.text()[99'999];
+        std::exit(*last);
+    };
+    EXPECT_EXIT(read_what_is_gone(), testing::ExitedWithCode(1),
+                "^actformer: .*/one: cut short by another program");
+}
+
+TEST(MappedFile, ChangesNothingOfOtherBusErrors) {
+    const TempDir dir;
+    write_file(dir / "file", "x");
+    const auto fail_elsewhere = [&] {
+        const MappedFile file(dir / "file");
+        std::raise(SIGBUS);
+    };
+    EXPECT_EXIT(fail_elsewhere(), testing::KilledBySignal(SIGBUS), "");
 }
 
 TEST(MappedFile, NamesAFileThatIsNotThere) {
