@@ -1,12 +1,10 @@
-// libFuzzer: HDF5 files that are nearly a shard, motions, a recogniser's weights or features, given to the readers of these. The library makes
+// libFuzzer: HDF5 files that are nearly a shard, motions or features, given to the readers of these. The library makes
 // them (see motions_fuzz.cpp).
 #include <string>
 
 #include "base/hdf5/file_memory.hpp"
 #include "base/hdf5/reader.hpp"
-#include "eval/gru/weights.hpp"
 #include "eval/scoring/features_file.hpp"
-#include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/motions_file.hpp"
 #include "ingest/dataset/shard.hpp"
 #include "tests/fuzz/fuzzing.hpp"
@@ -73,26 +71,6 @@ void make_features(hid_t file, Choices& choose) {
     add_attribute_nearly(file, {"frames", H5T_STD_I64LE, {2}}, choose);
 }
 
-/// The first tensors of a network whose sizes they tell.
-void make_weights(hid_t file, Choices& choose) {
-    const auto text = text_type(3);
-    for (const auto& wanted : std::vector<Named>{{"channels", H5T_STD_I64LE, {}},
-                                                 {"classes", H5T_STD_I64LE, {}},
-                                                 {"parents", H5T_STD_I64LE, {2}},
-                                                 {"center", H5T_STD_I64LE, {}},
-                                                 {"class_names", text.get(), {2}}})
-        add_attribute_nearly(file, wanted, choose);
-    for (const auto& wanted : std::vector<Named>{{"recurrent.weight_hh_l0", H5T_IEEE_F32LE, {48, 16}},
-                                                 {"linear1.weight", H5T_IEEE_F32LE, {2, 16}},
-                                                 {"fcn.weight", H5T_IEEE_F32LE, {2, 16, 1, 1}}})
-        add_nearly(file, wanted, choose);
-    for (std::size_t layer = 0; layer < eval::stgcn_layers; ++layer)
-        add_nearly(
-            file,
-            {fmt::format("{}tcn.2.weight", eval::layer_prefix(layer)).c_str(), H5T_IEEE_F32LE, {2, 2, 9, 1}},
-            choose);
-}
-
 void read_motions(const std::string& path) {
     const ingest::MotionsFile file(path);
     try_to([&] { file.check_limbs(); });
@@ -110,10 +88,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     hdf5::silence();
     static const Hdf5InMemory on_disk;
     Choices choose(data, size);
-    const auto kind = choose.below(4);
+    const auto kind = choose.below(3);
     {
         const auto file = new_file();
-        constexpr void (*make[])(hid_t, Choices&) = {make_shard, make_motions, make_features, make_weights};
+        constexpr void (*make[])(hid_t, Choices&) = {make_shard, make_motions, make_features};
         make[kind](file.get(), choose);
         auto image = image_of(file);
         if (choose.below(4) == 1) lengthen(image, choose);
@@ -127,9 +105,5 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         });
     if (kind == 1) try_to([&] { read_motions(path); });
     if (kind == 2) try_to([&] { demand(eval::read_features(path).samples.size() < 36); });
-    if (kind == 3) {
-        try_to([&] { eval::read_stgcn_weights(path); });
-        try_to([&] { eval::read_gru_weights(path); });
-    }
     return 0;
 }
