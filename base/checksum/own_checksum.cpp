@@ -37,6 +37,13 @@ std::string line_of(const std::string& hex) {
     return std::string(before_digits) + hex + "\n";
 }
 
+std::uint64_t size_of(const std::filesystem::path& path) {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(path, error);
+    if (error) throw Error("{}: cannot be read: {}", path.string(), error.message());
+    return size;
+}
+
 /// The file's last bytes, as many as such a line has; fewer of a shorter file.
 std::string end_of(const std::filesystem::path& path, std::uint64_t size) {
     std::string end(std::min<std::uint64_t>(size, line_size), '\0');
@@ -68,7 +75,7 @@ bool has_checksum_line(std::string_view bytes) {
 }
 
 bool has_checksum_line(const std::filesystem::path& path) {
-    return is_checksum_line(end_of(path, std::filesystem::file_size(path)));
+    return is_checksum_line(end_of(path, size_of(path)));
 }
 
 OwnChecksum own_checksum(std::string_view bytes) {
@@ -79,7 +86,7 @@ OwnChecksum own_checksum(std::string_view bytes) {
 }
 
 OwnChecksum own_checksum_of_file(const std::filesystem::path& path) {
-    const auto size = std::filesystem::file_size(path);
+    const auto size = size_of(path);
     const auto line = end_of(path, size);
     if (!is_checksum_line(line)) return OwnChecksum::absent;
     Checksum sum;

@@ -29,7 +29,7 @@ class MappingWatch {
     static void end_with_line(int signal, siginfo_t* what, void*);
 
     /// Those that are watched: a handler may neither wait for a lock nor allocate.
-    static constexpr std::size_t most = 256;
+    static constexpr std::size_t most = 2048;  // twice the most --threads
     static std::atomic<const Mapping*> watched[most];
 
     std::unique_ptr<const Mapping> mapping_;

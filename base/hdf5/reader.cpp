@@ -169,6 +169,17 @@ bool Reader::is_array(const std::string& name) const {
     return info_by_name(file_.get(), name.c_str(), info) >= 0 && info.type == H5O_TYPE_DATASET;
 }
 
+void Reader::expect_room_for(const std::vector<std::string>& names) const {
+    std::uint64_t bytes = 0;
+    for (const auto& name : names) {
+        const auto array = open(name);
+        bytes += std::min(array.numbers * H5Tget_size(array.type.get()), ~bytes);
+    }
+    if (bytes > much && bytes > product(bytes_, most_of_much))
+        fail("its {} arrays would take {} MiB out of {} MiB: names of one array, or damaged", names.size(),
+             bytes >> 20, bytes_ >> 20);
+}
+
 Reader::Array Reader::open(const std::string& name) const {
     refuse_links_away(name);
     if (!has(name)) fail("holds no '{}'", name);

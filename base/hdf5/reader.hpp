@@ -40,6 +40,9 @@ class Reader {
 
     /// Names directly in the root group, sorted.
     std::vector<std::string> names() const;
+
+    /// For whoever reads all of `names`: throws Error where they hold more together than such a file can, as when many are of one array.
+    void expect_room_for(const std::vector<std::string>& names) const;
     bool is_array(const std::string& name) const;
     bool has(const std::string& name) const;
     Shape shape(const std::string& name) const;

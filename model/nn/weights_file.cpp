@@ -24,7 +24,9 @@ hdf5::Writer weights_writer(const std::vector<Array>& arrays) {
 
 std::vector<Array> read_arrays(const hdf5::Reader& file, const std::string& where) {
     std::vector<Array> arrays;
-    for (const auto& name : file.names()) {
+    const auto names = file.names();
+    file.expect_room_for(names);
+    for (const auto& name : names) {
         const auto shape = file.shape(name);
         auto values = file.read<float>(name);
         if (!std::ranges::all_of(values, [](float v) { return std::isfinite(v); }))

@@ -1,6 +1,8 @@
 #include "model/train/checkpoint.hpp"
 
 #include <charconv>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 #include "base/checksum/own_checksum.hpp"
@@ -31,13 +33,16 @@ std::optional<std::uint64_t> step_of(std::string name) {
     return step;
 }
 
-/// Finished checkpoints, the newest first.
+/// Finished checkpoints, the newest first. What is called so and is no file is none.
 std::vector<fs::path> checkpoints_in(const fs::path& folder) {
     std::map<std::uint64_t, fs::path, std::greater<>> by_step;
     try {
         if (!fs::is_directory(folder)) return {};
+        std::error_code ignored;
         for (const auto& entry : fs::directory_iterator(folder))
-            if (const auto step = step_of(entry.path().filename().string())) by_step[*step] = entry.path();
+            if (const auto step = step_of(entry.path().filename().string());
+                step && entry.is_regular_file(ignored))
+                by_step[*step] = entry.path();
     } catch (const fs::filesystem_error& e) {
         throw Error("{}: cannot be listed: {}", folder.string(), e.code().message());
     }
@@ -64,10 +69,10 @@ void set_aside(const fs::path& damaged) {
         throw Error("{}: damaged, and cannot be renamed: {}; remove it", damaged.string(), error.message());
 }
 
-std::string read_whole(const fs::path& path) {
-    std::string bytes;
-    read_in_pieces(path, [&](std::string_view piece) { bytes += piece; });
-    return bytes;
+bool is_of_an_earlier_version(const fs::path& path) {
+    std::string beginning(before_hdf5.size(), '\0');
+    return std::ifstream(path, std::ios::binary).read(beginning.data(), std::ssize(beginning)) &&
+           beginning == before_hdf5;
 }
 
 std::size_t bytes_of(const std::vector<Array>& arrays) {
@@ -110,7 +115,9 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& path) {
     checkpoint.step = static_cast<std::uint64_t>(steps[0]);
     checkpoint.state = json_or_discarded<Json>(states[0]);
     if (!checkpoint.state.is_object()) return std::nullopt;
-    for (const auto& name : file.names()) {
+    const auto names = file.names();
+    file.expect_room_for(names);
+    for (const auto& name : names) {
         if (name == progress) continue;
         const auto shape = file.shape(name);
         Array array{name, {shape.begin(), shape.end()}, {}};
@@ -128,7 +135,7 @@ std::optional<Checkpoint> newest_checkpoint(const fs::path& folder, const std::s
     const auto files = checkpoints_in(folder);
     fs::path earlier;  // the newest of an earlier version
     for (std::size_t i = 0; i < files.size(); ++i) {
-        if (files[i].extension() != extension && read_whole(files[i]).starts_with(before_hdf5)) {
+        if (files[i].extension() != extension && is_of_an_earlier_version(files[i])) {
             if (earlier.empty()) earlier = files[i];
             continue;
         }

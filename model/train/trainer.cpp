@@ -146,6 +146,9 @@ void Loop::take_over(const Checkpoint& checkpoint) {
     learner_.load(checkpoint.arrays, step_,
                   fmt::format("{}: checkpoint of step {}", folder_->path().string(), step_));
     const auto sums = state.at("sums").get<std::vector<double>>();
+    if (std::ssize(sums) != learner_.sums().numel())
+        throw Error("{}: {} sums of losses, and this training has {}; choose another -o",
+                    checkpoint_path(folder_->path(), step_).string(), sums.size(), learner_.sums().numel());
     for (std::size_t i = 0; i < sums.size(); ++i) learner_.sums()[static_cast<std::int64_t>(i)] = sums[i];
     epoch_seconds_ = state.at("seconds");
     if (!validations_.take_from(state, epoch() < settings_.epochs))

@@ -149,6 +149,7 @@ TEST_F(HostileFile, AVirtualArrayIsRefusedThoughItNamesItself) {
 }
 
 TEST_F(HostileFile, ExternalLinksAreRefusedByName) {
+    if (!python_has("h5py")) GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
     write(0);
     const auto other = dir / "other.h5";
     // In another process: this one makes none either.
@@ -159,7 +160,7 @@ TEST_F(HostileFile, ExternalLinksAreRefusedByName) {
                                   "f.create_group('group'); f['group/up'] = h5py.SoftLink('/motion'); "
                                   "f['beside'] = h5py.SoftLink('group/up'); "
                                   "f['in a circle'] = h5py.SoftLink('/in a circle')\"");
-    if (made.exit != 0) GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
+    ASSERT_EQ(made.exit, 0) << made.output;
     const hdf5::Reader file(other);
     EXPECT_EQ(file.names(),
               (std::vector<std::string>{"all", "beside", "group", "in a circle", "motion", "round about"}));
@@ -215,6 +216,19 @@ TEST_F(HostileFile, LinksThatMultiplyAreNotFollowedForEver) {
     EXPECT_TRUE(file.is_array("a/b/c/d/motion"));
     const auto why = refusal([&] { file.is_array(all + "/motion"); });
     EXPECT_NE(why.find("leads over more than 64 links"), std::string::npos) << why;
+}
+
+TEST_F(HostileFile, ManyNamesOfOneArrayAreRefusedBeforeAllAreRead) {
+    {
+        hdf5::Writer writer(path);
+        writer.write<float>("a", {1 << 20}, std::vector<float>(1 << 20, 1.5F));
+        writer.finish();
+    }
+    EXPECT_NO_THROW(hdf5::Reader(path).expect_room_for({"a", "a"}));
+    const std::vector<std::string> names(300, "a");  // of 4 MiB each
+    const auto why = refusal([&] { hdf5::Reader(path).expect_room_for(names); });
+    EXPECT_EQ(why, path.string() +
+                       ": its 300 arrays would take 1200 MiB out of 4 MiB: names of one array, or damaged");
 }
 
 TEST_F(HostileFile, AnArrayThatDeflatedToNextToNothingIsRefused) {

@@ -100,6 +100,9 @@ TEST(Checkpoint, TheOneBeforeIsKeptAndUsed) {
     std::vector<std::string> notes;
     const auto note = [&](const std::string& line) { notes.push_back(line); };
     EXPECT_FALSE(newest_checkpoint(dir.path(), "toy", note));
+    std::filesystem::create_directories(dir / "checkpoint-200000.h5");
+    std::filesystem::create_symlink("nowhere", dir / "checkpoint-200001.h5");
+    EXPECT_FALSE(newest_checkpoint(dir.path(), "toy", note)) << "no files";
     for (const std::uint64_t step : {99998, 99999, 100000}) save_checkpoint(dir.path(), sample(step));
     EXPECT_FALSE(std::filesystem::exists(dir / "checkpoint-99998.h5"));
     expect_same(*newest_checkpoint(dir.path(), "toy", note), sample(100000));
