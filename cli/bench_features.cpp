@@ -230,10 +230,10 @@ void run(const BenchFeaturesOptions& options) {
     if (options.tune) {
         const auto tiles = eval::tune(device, weights, options.batch, options.frames,
                                       [&](const kernels::Tiles& t, double rate) {
-                                          say(stderr, "{:>8.1f} sequences/s  {}\n", rate, describe(t));
+                                          remark("{:>8.1f} sequences/s  {}\n", rate, describe(t));
                                       });
         eval::save_tiles(device.info(), tiles);
-        say(stderr, "kept in {}: {}\n", eval::tiles_file().string(), describe(tiles));
+        remark("kept in {}: {}\n", eval::tiles_file().string(), describe(tiles));
     }
     const auto tiles = eval::load_tiles(device.info());
     const auto result = measure(device, weights, tiles, options);

@@ -101,7 +101,7 @@ reports::SweepRow side(const char* letter, const fs::path& path, const fs::path&
     row.name = fmt::format("{}, {}", letter, name_beside(path, other));
     row.data = last_part(options.real);
     row.recogniser = "recogniser";
-    row.split = options.split;
+    row.split = printable(options.split);  // as a dataset takes it too
     row.device = options.device;
     row.repeats = options.repeats;
     row.per_class = options.per_class;

@@ -141,7 +141,7 @@ std::vector<bool> verify(const std::vector<std::filesystem::path>& folders) {
     for (const auto& folder : folders) {
         const auto [faults, checksums_of_bytes] = ingest::verify_dataset(folder);
         of_bytes.push_back(checksums_of_bytes);
-        for (std::size_t i = 1; i < faults.size(); ++i) say(stderr, "{}\n", faults[i]);
+        for (std::size_t i = 1; i < faults.size(); ++i) remark("{}\n", faults[i]);
         if (!faults.empty())
             throw Error("{}{}; ingest the raw data again", faults[0],
                         faults.size() > 1 ? fmt::format(" ({} more above)", faults.size() - 1) : "");

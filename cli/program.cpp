@@ -21,6 +21,7 @@
 #include "base/text/suggestion.hpp"
 #include "cli/built_with.hpp"
 #include "cli/command_tree.hpp"
+#include "cli/say.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -239,7 +240,7 @@ int parse(int argc, char** argv, const std::function<void(CLI::App&)>& add_comma
     } catch (const CLI::Success& e) {
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
-        fmt::print(stderr, "actformer: {}\n", refusal(app, argc, argv, e));
+        write_to_stderr(fmt::format("actformer: {}\n", refusal(app, argc, argv, e)));
         return 1;
     }
     return 0;
@@ -256,14 +257,14 @@ void forget_callbacks(CLI::App& app) {
 int closed_output() {
     if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return 0;
     if (errno == EPIPE) return 128 + SIGPIPE;
-    fmt::print(stderr, "actformer: standard output cannot be written: {}\n", std::strerror(errno));
+    write_to_stderr(fmt::format("actformer: standard output cannot be written: {}\n", std::strerror(errno)));
     return 1;
 }
 
 /// After what was printed before, also where both go into one file.
 int failed(const std::string& why) {
     std::fflush(stdout);
-    fmt::print(stderr, "actformer: {}\n", printable(why));
+    write_to_stderr(fmt::format("actformer: {}\n", printable(why)));
     return 1;
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/say.hpp"
+
 namespace actformer::cli {
 
 std::string duration(double seconds) {
@@ -53,16 +55,16 @@ void Progress::update(double fraction, std::uint64_t count) {
         const int full = static_cast<int>(width * std::clamp(fraction, 0.0, 1.0));
         std::string bar;
         for (int i = 0; i < width; ++i) bar += i < full ? "█" : "░";
-        fmt::print(stderr, "\r\033[K{} {} {}", label_, bar, text);
+        write_to_stderr(fmt::format("\r\033[K{} {} {}", label_, bar, text));
     } else {
-        fmt::print(stderr, "{} {}\n", label_, text);
+        write_to_stderr(fmt::format("{} {}\n", label_, text));
     }
     std::fflush(stderr);
     drawn_ = true;
 }
 
 void Progress::clear() {
-    if (drawn_ && terminal_) fmt::print(stderr, "\r\033[K");
+    if (drawn_ && terminal_) write_to_stderr("\r\033[K");
     drawn_ = false;
 }
 

@@ -96,12 +96,11 @@ bool write_report(const ReportOptions& options) {
         const auto data = reports::details(measured, details);
         const auto html = reports::page(options.title, tables, measured.notices, data);
         write_whole(options.out, html);
-        say(stderr, "{}: {}, {}\n", options.out.string(), contents(figures, measured.rows),
-            bytes(html.size()));
+        remark("{}: {}, {}\n", options.out.string(), contents(figures, measured.rows), bytes(html.size()));
     }
     if (!options.csv.empty()) write_whole(options.csv, reports::to_csv(tables));
     if (!options.latex.empty()) write_whole(options.latex, reports::to_latex(tables));
-    for (const auto& notice : measured.notices) say(stderr, "notice: {}\n", notice);
+    for (const auto& notice : measured.notices) remark("notice: {}\n", notice);
     if (options.json) say_json(reports::to_json(tables, measured.notices));
     return std::ranges::any_of(measured.rows, [](const auto& row) { return row.status == "waiting"; });
 }

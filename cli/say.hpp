@@ -20,16 +20,23 @@ decltype(auto) shown(const Value& value) {
         return value;
 }
 
-/// fmt::print with every text shown.
-template <typename... Values>
-void say(std::FILE* to, fmt::format_string<decltype(shown(std::declval<const Values&>()))...> text,
-         const Values&... values) {
-    fmt::print(to, text, shown(values)...);
+/// What cannot be written on standard error is lost, and ends nothing: there is no place left to say so.
+inline void write_to_stderr(std::string_view text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
 }
+
+/// fmt::print on standard output with every text shown. Throws std::system_error where that cannot be written.
 template <typename... Values>
 void say(fmt::format_string<decltype(shown(std::declval<const Values&>()))...> text,
          const Values&... values) {
     fmt::print(text, shown(values)...);
+}
+
+/// The same on standard error, beside the results.
+template <typename... Values>
+void remark(fmt::format_string<decltype(shown(std::declval<const Values&>()))...> text,
+            const Values&... values) {
+    write_to_stderr(fmt::format(text, shown(values)...));
 }
 
 }  // namespace actformer::cli

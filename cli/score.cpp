@@ -285,7 +285,7 @@ void run(const ScoreOptions& options, const eval::GenerateSets& generate) {
     if (!options.force) refuse_foreign_outputs(options);
     WorkFolder work(options.out);
     const auto scored = scored_by(options, generate, work.path());
-    for (const auto& note : scored.notes) say(stderr, "{}\n", note);
+    for (const auto& note : scored.notes) remark("{}\n", note);
     if (!options.out.empty()) write_whole(options.out, with_checksum(scored.json).dump(2) + "\n");
     work.done();
     if (options.json)

@@ -123,18 +123,18 @@ std::string SweepJobs::run(const Job& job, const std::filesystem::path& log) con
 reports::SweepEvents told_events(const std::filesystem::path& out) {
     SweepEvents events;
     events.again = [](const Job& job, const std::string& why) {
-        say(stderr, "again:  {} ({}): {}\n", job.title, job.id, why);
+        remark("again:  {} ({}): {}\n", job.title, job.id, why);
     };
     events.begins = [](const Job& job, const SweepProgress& now) {
         const auto left = now.seconds_left ? ", about " + duration(*now.seconds_left) + " left" : "";
-        say(stderr, "begins: [{}/{}] {} ({}){}\n", now.begun, now.jobs, job.title, job.id, left);
+        remark("begins: [{}/{}] {} ({}){}\n", now.begun, now.jobs, job.title, job.id, left);
     };
     events.ends = [out](const Job& job, const JobStatus& status) {
         if (status.state == JobState::done)
-            say(stderr, "done:   {}{}\n", job.title, status.seconds ? ", " + duration(*status.seconds) : "");
+            remark("done:   {}{}\n", job.title, status.seconds ? ", " + duration(*status.seconds) : "");
         else
-            say(stderr, "failed: {}: {}; see {}\n", job.title, status.why,
-                (folder_of(out, job) / "log.txt").string());
+            remark("failed: {}: {}; see {}\n", job.title, status.why,
+                   (folder_of(out, job) / "log.txt").string());
     };
     return events;
 }

@@ -55,8 +55,7 @@ void TrainingDisplay::print_epoch(const model::EpochReport& report) {
     if (report.scores)
         line +=
             fmt::format("  {}{}", text_of(report.scores->values), report.scores->best ? " best" : "     ");
-    say(stderr, "{}  {:.2f} steps/s, {:.0f} windows/s\n", line, report.steps_a_second,
-        report.windows_a_second);
+    remark("{}  {:.2f} steps/s, {:.0f} windows/s\n", line, report.steps_a_second, report.windows_a_second);
 }
 
 model::TrainingEvents TrainingDisplay::events() {
@@ -64,7 +63,7 @@ model::TrainingEvents TrainingDisplay::events() {
     events.progress = [this](double fraction, std::uint64_t steps) { progress_.update(fraction, steps); };
     events.note = [this](const std::string& line) {
         progress_.clear();
-        say(stderr, "{}\n", line);
+        remark("{}\n", line);
     };
     events.epoch = [this](const model::EpochReport& report) {
         progress_.clear();
@@ -72,7 +71,7 @@ model::TrainingEvents TrainingDisplay::events() {
     };
     events.scores = [this](const model::ValidationReport& scores) {
         progress_.clear();
-        say(stderr, "epoch {:>4}: {}{}\n", scores.epoch, text_of(scores.values), scores.best ? "  best" : "");
+        remark("epoch {:>4}: {}{}\n", scores.epoch, text_of(scores.values), scores.best ? "  best" : "");
     };
     return events;
 }

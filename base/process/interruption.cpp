@@ -1,9 +1,11 @@
 #include "base/process/interruption.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <mutex>
 #include <thread>
 
@@ -61,6 +63,13 @@ sigset_t set_of(std::initializer_list<int> signals) {
     return set;
 }
 
+/// Files opened later must not become what is written to standard output or error. What stands in for a closed one fails as that does.
+void take_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+            ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 bool is_ignored(int signal) {
     struct sigaction found {};
     return ::sigaction(signal, nullptr, &found) == 0 && found.sa_handler == SIG_IGN;
@@ -71,6 +80,7 @@ bool is_ignored(int signal) {
 void end_in_order() {
     // Blocked in all threads, as they take it from this one: LLVM, inside OpenCL, has handlers of its own for all of these, and asks
     // nobody. Those that end the program are waited for, also where its caller ignores them, and then nothing is done.
+    take_closed_streams();
     ::signal(SIGPIPE, SIG_IGN);
     ::signal(SIGXFSZ, SIG_IGN);
     block_signals();

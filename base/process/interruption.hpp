@@ -11,7 +11,8 @@ namespace actformer {
 
 /// From here on those signals remove what is temporary (see Temporary), say so in a line on standard error and end the program with
 /// exit code 128 + the signal; what the caller ignores (nohup) stays ignored. Writing beyond a limit on files' sizes, or to a pipe
-/// that nobody reads, fails with an error and ends nothing. To be called first of all, while there is one thread.
+/// that nobody reads, fails with an error and ends nothing. Standard streams that are closed stay so, and no file is opened in their place. To be called
+/// first of all, while there is one thread.
 void end_in_order();
 
 /// In a new process before it becomes another program: signals are as this program found them. Safe between fork and exec.

@@ -99,6 +99,22 @@ TEST_F(Signals, OutputThatNobodyTakes) {
     expect_refused(run_command(program() + " devices >/dev/full"), {"standard output", "No space left"});
 }
 
+TEST_F(Signals, StandardErrorThatCannotBeWrittenEndsNothing) {
+    const auto synth = program() + " synth ntu -o " + (dir / "raw").string() + " --clips ";
+    for (const std::string errors : {" 2>/dev/full", " 2>&-"}) {
+        EXPECT_EQ(run_command(synth + "0" + errors).exit, 1) << errors;
+        EXPECT_EQ(run_command(synth + "1" + errors).exit, 0) << errors;
+    }
+    expect_refused(run_command(program() + " devices >&-"), {"standard output", "Bad file descriptor"});
+}
+
+TEST_F(Signals, NoFileIsOpenedInPlaceOfAClosedStandardError) {
+    const auto run =
+        run_command("exec 3>&1; " + environment() + " " + program() + " " + bench("it's slow.sh") +
+                    " 2>&- & until readlink /proc/$!/fd/2 >&3; do sleep 0.01; done; kill $!");
+    EXPECT_EQ(run.output, "/dev/null\n");
+}
+
 TEST_F(Signals, ALimitOnTheSizeOfFilesIsALine) {
     expect_refused(
         run_command("ulimit -f 4; " + program() + " synth ntu --clips 1 -o " + (dir / "raw").string()),
