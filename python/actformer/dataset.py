@@ -10,7 +10,7 @@ import numpy as np
 
 from .body import Body, Floats, joint_positions
 from .errors import Error, suggestion
-from .files import AnyPath, open_hdf5, read_json, texts
+from .files import AnyPath, member, open_hdf5, read_json, texts
 
 #: Versions of dataset.json that this package reads.
 FORMATS = (1, 2, 3)
@@ -85,7 +85,7 @@ class Dataset:
                     if condition.field not in self._fields:
                         raise Error(f"damaged: split '{name}' asks for '{condition.field}', which is none of the "
                                     "clips' fields; ingest the raw data again")
-            self._shards: List[str] = [shard["file"] for shard in header["shards"]]
+            self._shards: List[str] = [_file_name(shard["file"]) for shard in header["shards"]]
         except (KeyError, TypeError, ValueError, AttributeError) as why:
             raise Error(f"{where}: damaged: {type(why).__name__} {why}; ingest the raw data again") from None
         except Error as why:
@@ -124,12 +124,12 @@ class Dataset:
 
     def motion(self, clip: Clip) -> Floats:
         """(frames, persons, nodes, numbers) float32, as the representation has them."""
-        motion: Floats = self._file(clip.shard)["motion"][clip.offset : clip.offset + clip.frames]
+        motion: Floats = member(self._file(clip.shard), "motion")[clip.offset : clip.offset + clip.frames]
         return motion
 
     def bone_length(self, clip: Clip) -> Floats:
         """(persons, joints) metres; 0 for the root."""
-        lengths: Floats = self._file(clip.shard)["clip/bone_length"][clip.row]
+        lengths: Floats = member(self._file(clip.shard), "clip/bone_length")[clip.row]
         return lengths
 
     def body_of(self, clip: Clip) -> Body:
@@ -167,12 +167,12 @@ class Dataset:
     def _read_clips(self, shard: int) -> Iterator[Clip]:
         path, file, fields = self.folder / self._shards[shard], self._file(shard), self._fields
         try:
-            frames = len(file["motion"])
-            if file["motion"].shape[1:] != (self.persons, self.body.nodes, self.body.numbers):
-                raise Error(f"{path}: 'motion' of shape {file['motion'].shape} is not as dataset.json says; ingest again")
-            names, offsets = texts(file["clip/name"][()]), file["clip/offset"][()]
-            lengths, labels = file["clip/length"][()], file["clip/label"][()]
-            columns = [texts(file[f"clip/{field}"][()]) for field in fields]
+            motion = member(file, "motion")
+            frames = len(motion)
+            if motion.shape[1:] != (self.persons, self.body.nodes, self.body.numbers):
+                raise Error(f"{path}: 'motion' of shape {motion.shape} is not as dataset.json says; ingest again")
+            names, offsets, lengths, labels = (member(file, f"clip/{c}")[()] for c in ("name", "offset", "length", "label"))
+            names, columns = texts(names), [texts(member(file, f"clip/{field}")[()]) for field in fields]
         except KeyError as why:
             raise Error(f"{path}: damaged: {why.args[0]}; ingest the raw data again") from None
         if any(len(column) != len(names) for column in [offsets, lengths, labels, *columns]):
@@ -203,6 +203,13 @@ def _header(folder: Path) -> Dict[str, Any]:
         raise Error(f"{path}: format {version}, but this package reads formats 1 to 3; take the package of the "
                     "program's version")
     return dict(header)
+
+
+def _file_name(said: str) -> str:
+    """A shard's, which lies beside dataset.json."""
+    if said in ("", ".", "..") or "/" in said:
+        raise Error(f"shard '{said}' is no file's name; ingest the raw data again")
+    return said
 
 
 def _condition(said: Dict[str, Any]) -> Condition:

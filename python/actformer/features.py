@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from .body import Floats
 from .errors import Error
-from .files import AnyPath, open_hdf5, texts
+from .files import AnyPath, member, open_hdf5, texts
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,10 @@ def read_features(path: AnyPath) -> Features:
     with open_hdf5(where, "the features that actformer features made") as file:
 
         def array(name: str) -> Any:
-            return file[name][()] if name in file else None
+            try:
+                return member(file, name)[()]
+            except KeyError:
+                return None
 
         def note(name: str) -> str:
             return texts(file.attrs[name])[0] if name in file.attrs else ""

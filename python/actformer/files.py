@@ -1,9 +1,13 @@
 """HDF5 and JSON files, opened with errors of one line."""
 
+import contextlib
+import errno
 import json
 import os
+import secrets
+import stat
 from pathlib import Path
-from typing import Any, List, Sequence, Union
+from typing import Any, Iterator, List, Sequence, Union
 
 import h5py
 import numpy as np
@@ -11,6 +15,9 @@ import numpy as np
 from .errors import Error
 
 AnyPath = Union[str, "os.PathLike[str]"]
+
+#: Soft links followed on the way to a member of an HDF5 file.
+MOST_LINKS = 16
 
 
 def open_hdf5(path: Path, what: str) -> h5py.File:
@@ -24,6 +31,52 @@ def open_hdf5(path: Path, what: str) -> h5py.File:
         return h5py.File(path, "r")
     except OSError as why:
         raise Error(f"{path}: no HDF5 file, or damaged ({_first_line(why)}); make it anew") from None
+
+
+def member(file: h5py.File, name: str) -> Any:
+    """The array or group at ``name``, a path in the file. Raises KeyError where there is none, and Error where it lies in another
+    file, which is not opened: an external link, external storage or a virtual array."""
+    place, parts, links = file["/"], _parts(name), 0
+    while parts:
+        if not isinstance(place, h5py.Group):
+            raise KeyError(f"holds no '{name}'")
+        part, all_links = parts.pop(0).encode("utf-8", "surrogateescape"), place.id.links
+        kind = all_links.get_info(part).type if all_links.exists(part) else None
+        if kind == h5py.h5l.TYPE_SOFT and links < MOST_LINKS:
+            to = all_links.get_val(part).decode("utf-8", "surrogateescape")
+            place, parts, links = file["/"] if to.startswith("/") else place, _parts(to) + parts, links + 1
+        elif kind == h5py.h5l.TYPE_EXTERNAL:
+            raise Error(f"{file.filename}: '{name}' leads to another file; copy what it leads to into this one")
+        elif kind == h5py.h5l.TYPE_HARD:
+            place = place[part]
+        else:
+            raise KeyError(f"holds no '{name}'")
+    _refuse_numbers_elsewhere(place, f"{file.filename}: '{name}'")
+    return place
+
+
+@contextlib.contextmanager
+def new_file(target: Path) -> Iterator[Path]:
+    """An empty file beside ``target``, which takes its place, on the disk, at the end of the block, and is gone where that raises. A
+    symbolic link at ``target`` stays, and the file it leads to is replaced. Raises Error where something else than a file is there."""
+    place = Path(os.path.realpath(target)) if target.is_symlink() else target
+    if place.exists() and not place.is_file():
+        kind = "a folder" if place.is_dir() else "a FIFO" if stat.S_ISFIFO(place.stat().st_mode) else "a device or socket"
+        raise Error(f"{target}: {kind}, where a file is to be written; give another path")
+    partial = place.with_name(f".{place.name[:40]}.{secrets.token_hex(8)}.partial")  # a name that nobody foresees
+    handle = os.open(partial, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666)
+    try:
+        yield partial
+        _sync(handle)
+        os.replace(partial, place)
+    finally:
+        os.close(handle)
+        partial.unlink(missing_ok=True)
+    folder = os.open(place.parent, os.O_RDONLY)
+    try:
+        _sync(folder)
+    finally:
+        os.close(folder)
 
 
 def read_json(path: Path, what: str) -> Any:
@@ -52,6 +105,26 @@ def fixed_texts(words: Sequence[str]) -> Any:
     """Texts as the program reads them in attributes: UTF-8 of fixed length."""
     encoded = [word.encode("utf-8") for word in words]
     return np.array(encoded, h5py.string_dtype("utf-8", max([1, *map(len, encoded)])))
+
+
+def _refuse_numbers_elsewhere(array: Any, where: str) -> None:
+    if isinstance(array, h5py.Dataset) and array.is_virtual:
+        raise Error(f"{where} is a virtual array, whose numbers lie elsewhere; copy them into an array of this file")
+    if isinstance(array, h5py.Dataset) and array.external:
+        raise Error(f"{where} keeps its numbers in another file; copy them into an array of this one")
+
+
+def _parts(name: str) -> List[str]:
+    return [part for part in name.split("/") if part not in ("", ".")]
+
+
+def _sync(handle: int) -> None:
+    """Brings a file or a folder's names to the disk, where its file system knows how."""
+    try:
+        os.fsync(handle)
+    except OSError as why:
+        if why.errno not in (errno.EINVAL, errno.ENOSYS, errno.ENOTSUP):
+            raise
 
 
 def _is_a_folder(path: Path, what: str) -> str:

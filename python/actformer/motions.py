@@ -1,7 +1,6 @@
 """Motions files: HDF5 in the layout of ActFormer's published tools, one (P*C, K, T) array a motion, with attributes that say whose
 motions they are."""
 
-import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +11,7 @@ import numpy as np
 
 from .body import NUMBERS, Body, Floats, joint_positions
 from .errors import Error, suggestion
-from .files import AnyPath, fixed_texts, open_hdf5, texts
+from .files import AnyPath, fixed_texts, member, new_file, open_hdf5, texts
 
 
 @dataclass(frozen=True)
@@ -48,7 +47,7 @@ class Motions:
 
     def _read_head(self, otherwise: str) -> None:
         attributes = self._file.attrs
-        self.names: List[str] = sorted(n for n, item in self._file.items() if isinstance(item, h5py.Dataset))
+        self.names: List[str] = sorted(name for name in self._file if self._is_array(name))
         if not self.names:
             raise Error(f"{self.path}: holds no motions; one (P*C, K, T) array a motion is expected")
         told = "representation" in attributes
@@ -93,7 +92,7 @@ class Motions:
         """The motion called ``name``."""
         if name not in self.names:
             raise Error(f"{self.path}: no motion is called '{name}'{suggestion(name, self.names)}")
-        array, numbers = self._file[name], NUMBERS[self.representation]
+        array, numbers = member(self._file, name), NUMBERS[self.representation]
         if array.ndim != 3 or array.shape[0] == 0 or array.shape[0] % numbers:
             raise Error(f"{self.path}: '{name}' of shape {array.shape} is no (P*{numbers}, K, T) array, as "
                         f"{self.representation} has them")
@@ -117,6 +116,12 @@ class Motions:
 
     def close(self) -> None:
         self._file.close()
+
+    def _is_array(self, name: str) -> bool:
+        try:
+            return isinstance(member(self._file, name), h5py.Dataset)
+        except KeyError:
+            return False
 
     def __enter__(self) -> "Motions":
         return self
@@ -142,7 +147,7 @@ def write_motions(
     source: str = "",
 ) -> None:
     """Writes a file that ``actformer render``, ``score``, ``features``, ``export`` and ``ingest motions`` read. It appears at ``path``
-    whole or not at all; ``source`` says in a line where the motions come from.
+    whole or not at all, and is on the disk then; ``source`` says in a line where the motions come from.
 
     >>> wave = np.zeros((60, 1, 2, 3), np.float32)
     >>> wave[..., 1] = 1                                # one metre above the ground; a head above the hip
@@ -152,9 +157,8 @@ def write_motions(
     (60, 1, 2, 3)
     """
     target = Path(path)
-    partial = target.with_name(f".{target.name}.{os.getpid()}.partial")
     try:
-        with h5py.File(partial, "w") as file:
+        with new_file(target) as partial, h5py.File(partial, "w") as file:
             persons = 0
             for motion in motions:
                 if motion.name in file:
@@ -165,11 +169,8 @@ def write_motions(
             if persons == 0:
                 raise Error(f"{target}: no motions are given")
             _describe(file, body, classes, fps, persons, source)
-        os.replace(partial, target)
     except OSError as why:
         raise Error(f"{target}: cannot be written: {str(why).splitlines()[0]}") from None
-    finally:
-        partial.unlink(missing_ok=True)
 
 
 def _check(motion: Motion, body: Body, classes: Sequence[str], target: Path) -> None:

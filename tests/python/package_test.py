@@ -3,7 +3,8 @@
 
 usage: package_test.py PROGRAM SOURCE_FOLDER         (77: skipped)
 """
-import doctest, importlib.util, inspect, json, os, pickle, re, subprocess, sys, tempfile, unittest
+import doctest, errno, importlib.util, inspect, json, os, pickle, re, stat, subprocess, sys, tempfile, unittest
+from unittest import mock
 
 if len(sys.argv) != 3:
     sys.exit(__doc__)
@@ -211,6 +212,8 @@ class Mistakes(unittest.TestCase):
                               (lambda d: d.pop("fields"), ["dataset.json", "fields", "ingest"]),
                               (lambda d: d["fields"].remove("performer"),
                                ["dataset.json", "split 'xsub/train' asks for 'performer'", "ingest"]),
+                              (lambda d: d["shards"][0].update(file="../ntu/ntu-1p/shard-00000.h5"),
+                               ["dataset.json", "shard '../ntu/ntu-1p/shard-00000.h5' is no file's name", "ingest"]),
                               (lambda d: d.update(persons=3), ["shard-00000.h5", "'motion'"])):
             subprocess.run(["rm", "-rf", "damaged"], check=True)
             subprocess.run(["cp", "-r", "ntu/ntu-1p", "damaged"], check=True)
@@ -255,6 +258,98 @@ class Mistakes(unittest.TestCase):
         self.refused(lambda: write_motions("bad.h5", [Motion("a", walk())], stick("limb")), "'xyz'")
         self.refused(lambda: write_motions("no/folder/x.h5", [Motion("a", walk())], body), "no/folder/x.h5")
         self.assertEqual([name for name in os.listdir(".") if "bad" in name], [])  # nothing half is left
+
+    def test_what_is_no_file_is_not_replaced(self):
+        os.mkdir("places")
+        one = [Motion("A001_0", walk())]
+        write_motions("places/old.h5", one, stick())
+        with open("places/victim", "w") as file:
+            file.write("mine")
+        os.symlink("victim", f"places/.new.h5.{os.getpid()}.partial")  # a name that could once be foreseen
+        os.symlink("old.h5", "places/link.h5")
+        os.symlink("/dev/null", "places/null.h5")
+        os.mkfifo("places/pipe.h5")
+        os.mkdir("places/folder.h5")
+        before = sorted(os.listdir("places"))
+        for name, kind in (("null.h5", "a device"), ("pipe.h5", "a FIFO"), ("folder.h5", "a folder")):
+            self.refused(lambda: write_motions(f"places/{name}", one, stick()), f"places/{name}: {kind}", "another path")
+        write_motions("places/link.h5", one, stick(), source="through a link")
+        self.assertTrue(os.path.islink("places/link.h5"))
+        with h5py.File("places/old.h5") as file:
+            self.assertEqual(file.attrs["source"], b"through a link")
+        self.assertEqual(sorted(os.listdir("places")), before)
+        mask = os.umask(0o027)
+        try:
+            write_motions("places/new.h5", one, stick())
+        finally:
+            os.umask(mask)
+        self.assertEqual(stat.S_IMODE(os.stat("places/new.h5").st_mode), 0o640)
+        with open("places/victim") as file:
+            self.assertEqual(file.read(), "mine")
+
+    def test_written_files_are_on_the_disk_or_gone(self):
+        os.mkdir("synced")
+        one = [Motion("A001_0", walk())]
+        with mock.patch("os.fsync") as sync:
+            write_motions("synced/m.h5", one, stick())
+        self.assertEqual(sync.call_count, 2)  # the file and its folder
+        with open("synced/m.h5", "rb") as file:
+            before = file.read()
+        with mock.patch("os.fsync", side_effect=OSError(errno.EIO, "the disk is broken")):
+            self.refused(lambda: write_motions("synced/m.h5", one, stick(), source="new"), "synced/m.h5: cannot be written",
+                         "the disk is broken")
+
+        def stopped():
+            yield one[0]
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            write_motions("synced/m.h5", stopped(), stick())
+        with open("synced/m.h5", "rb") as file:
+            self.assertEqual(file.read(), before)
+        self.assertEqual(os.listdir("synced"), ["m.h5"])
+
+    def test_numbers_in_other_files(self):
+        shape = (3, 3, 20)
+        values = walk().transpose(1, 3, 2, 0).reshape(shape)
+        with h5py.File("elsewhere.h5", "w") as file:
+            file["A001_0"] = values
+
+        def virtual(file):
+            layout = h5py.VirtualLayout(shape, "f4")
+            layout[:] = h5py.VirtualSource("elsewhere.h5", "A001_0", shape)
+            file.create_virtual_dataset("A001_0", layout)
+
+        def behind_a_soft_link(file):
+            file["group/away"] = h5py.ExternalLink("elsewhere.h5", "/")
+            file["A001_0"] = h5py.SoftLink("/group/away/A001_0")
+
+        away = (("leads to another file", lambda f: f.update({"A001_0": h5py.ExternalLink("elsewhere.h5", "A001_0")})),
+                ("leads to another file", behind_a_soft_link),
+                ("is a virtual array", virtual),
+                ("keeps its numbers in another file",
+                 lambda f: f.create_dataset("A001_0", shape, "f4", external=[("numbers.bin", 0, h5py.h5f.UNLIMITED)])))
+        for words, make in away:
+            with h5py.File("away.h5", "w") as file:
+                make(file)
+            self.refused(lambda: Motions("away.h5", "xyz"), "away.h5: 'A001_0'", words, "copy")
+            with h5py.File("away.h5", "r+") as file:
+                file.move("A001_0", "features")
+            self.refused(lambda: read_features("away.h5"), "away.h5: 'features'", words, "copy")
+        with h5py.File("near.h5", "w") as file:  # links within a file are followed, but not in a circle
+            file["A001_0"] = values
+            file["A001_1"] = h5py.SoftLink("A001_0")
+            file["A001_2"] = h5py.SoftLink("/A001_2")
+        near = Motions("near.h5", "xyz")
+        self.assertEqual(near.names, ["A001_0", "A001_1"])
+        np.testing.assert_array_equal(near["A001_1"].values, walk())
+
+    def test_datasets_with_numbers_in_other_files(self):
+        subprocess.run(["cp", "-r", "ntu/ntu-1p", "away"], check=True)
+        with h5py.File("away/shard-00000.h5", "r+") as file:
+            del file["motion"]
+            file["motion"] = h5py.ExternalLink("../ntu/ntu-1p/shard-00000.h5", "motion")
+        self.refused(lambda: Dataset("away"), "shard-00000.h5: 'motion' leads to another file", "copy")
 
     def test_bodies(self):
         self.refused(lambda: Body("limbs", (), ()), "did you mean 'limb'")
