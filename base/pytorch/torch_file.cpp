@@ -5,6 +5,7 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -30,9 +31,16 @@ constexpr const char* other_order = "numbers with their highest byte first; save
 constexpr std::size_t deepest_group = 8, most_entries = std::size_t{1} << 20;
 constexpr std::int64_t most_numbers = std::int64_t{1} << 40;
 
+// A pickle says a key, a shape or a storage once for any number of tensors, each of which has them for itself.
+constexpr std::size_t longest_name = 1000, most_dimensions = 32;
+
 // Inflated members keep their memory, and many may be the same bytes of the archive. All of them together are either that many bytes, or
 // that many times the archive: of weights deflate makes hardly less.
 constexpr std::uint64_t most_inflated = std::uint64_t{64} << 20, most_growth = 100;
+
+// All tensors together are either most_inflated bytes, or that many times what the file and its inflated members hold: tied weights and
+// views share storages a few times.
+constexpr std::uint64_t most_sharing = 8;
 
 std::size_t size_of(Type type) {
     switch (type) {
@@ -71,6 +79,15 @@ Type type_of(const PickleValue& storage_class) {
     throw Error("byte {}: {} for a class of storages", storage_class.at(), what);
 }
 
+/// A key behind `before` bytes of names. Throws Error for what is longer than a name, before it is copied.
+std::string short_text(const PickleValue& key, std::size_t before = 0) {
+    const auto size = before + key.bytes().size();
+    if (size > longest_name)
+        throw Error("byte {}: a name of {} bytes, where {} are enough: made to exhaust its readers", key.at(),
+                    size, longest_name);
+    return key.text();
+}
+
 /// What a storage is called by: ('storage', class, key, location, numbers), and in the older form a view or None behind.
 struct StorageId {
     Type type;
@@ -88,7 +105,7 @@ struct StorageId {
             throw Error("byte {}: a view of a storage, as PyTorch below 0.4 writes it; load and save it anew",
                         reference.at());
         type = type_of((*id)[1]);
-        key = (*id)[2].text();
+        key = short_text((*id)[2]);
         const auto count = (*id)[4].whole();
         if (count < 0 || count > most_numbers)
             throw Error("byte {}: a storage of {} numbers", reference.at(), count);
@@ -100,6 +117,11 @@ struct StorageId {
 using Storages = std::function<std::string_view(const StorageId&)>;
 
 std::vector<std::uint64_t> whole_numbers(const PickleValue& list) {
+    if (list.size() > most_dimensions)
+        throw Error(
+            "byte {}: {} numbers in a tensor's shape or strides, where {} are enough: made to exhaust "
+            "its readers",
+            list.at(), list.size(), most_dimensions);
     std::vector<std::uint64_t> out;
     for (std::size_t i = 0; i < list.size(); ++i) {
         const auto number = list[i].whole();
@@ -155,10 +177,17 @@ TorchTensor tensor_of(const PickleValue& value, const Storages& storages) {
     return tensor;
 }
 
+std::uint64_t bytes_of(const TorchTensor& tensor) {
+    return std::accumulate(tensor.shape.begin(), tensor.shape.end(), std::uint64_t{size_of(tensor.type)},
+                           std::multiplies<>());
+}
+
 /// Collects the tensors of a dict and of the dicts in it.
 class Collector {
   public:
-    Collector(const Storages& storages, std::vector<TorchTensor>& to) : storages_(storages), to_(to) {}
+    /// `held`: bytes of the file and of what was inflated of it so far.
+    Collector(const Storages& storages, const std::uint64_t& held, std::vector<TorchTensor>& to)
+        : storages_(storages), held_(held), to_(to) {}
 
     void take(const PickleValue& dict, const std::string& group, std::size_t depth) {
         for (std::size_t i = 0; i < dict.size(); ++i) {
@@ -168,33 +197,50 @@ class Collector {
             const auto [key, value] = dict.entry(i);
             if (!key.is_text()) continue;  // an optimiser's numbered parameters
             if (is_tensor(value)) {
-                to_.push_back(tensor_of(value, storages_));
-                to_.back().group = group;
-                to_.back().name = key.text();
+                auto tensor = tensor_of(value, storages_);
+                tensor.group = group;
+                tensor.name = short_text(key, group.size());
+                count(tensor, value.at());
+                to_.push_back(std::move(tensor));
             } else if (value.is_dict() && depth < deepest_group) {
-                take(value, group.empty() ? key.text() : group + "/" + key.text(), depth + 1);
+                const auto name = short_text(key, group.size());
+                take(value, group.empty() ? name : group + "/" + name, depth + 1);
             }
         }
     }
 
   private:
+    void count(const TorchTensor& tensor, std::uint64_t at) {
+        bytes_ += bytes_of(tensor) + tensor.group.size() + tensor.name.size();
+        if (const auto most = std::max(most_inflated, most_sharing * held_); bytes_ > most)
+            throw Error(
+                "byte {}: more than {} MiB of tensors, in storages of {} MiB that they share: made to "
+                "exhaust its readers; save copies of them if that is right",
+                at, most >> 20, held_ >> 20);
+    }
+
     const Storages& storages_;
+    const std::uint64_t& held_;
     std::vector<TorchTensor>& to_;
     std::size_t entries_ = 0;  ///< seen so far, for dicts may hold one another many times
+    std::uint64_t bytes_ = 0;  ///< of the tensors so far, with their names
 };
 
-void collect(const PickleValue& root, const Storages& storages, std::vector<TorchTensor>& to) {
+void collect(const PickleValue& root, const Storages& storages, const std::uint64_t& held,
+             std::vector<TorchTensor>& to) {
     if (!root.is_dict())
         throw Error("byte {}: {}, where a dict of tensors belongs; save a model's state_dict()", root.at(),
                     root.what());
-    Collector(storages, to).take(root, "", 0);
+    Collector(storages, held, to).take(root, "", 0);
 }
 
 /// A zip archive: NAME/data.pkl, and NAME/data/KEY for each storage.
 class Archive {
   public:
     Archive(std::string_view bytes, std::deque<std::vector<char>>& unpacked)
-        : unpacked_(unpacked), room_(std::max(most_inflated, most_growth * bytes.size())) {
+        : unpacked_(unpacked),
+          room_(std::max(most_inflated, most_growth * bytes.size())),
+          held_(bytes.size()) {
         for (auto& member : zip_members(bytes)) members_.emplace(member.name, member);
     }
 
@@ -213,7 +259,7 @@ class Archive {
         within(found->first, [&] {
             const Pickle pickle(text_of(found->second), limits());
             collect(
-                pickle.root(), [&](const StorageId& id) { return storage(id); }, tensors);
+                pickle.root(), [&](const StorageId& id) { return storage(id); }, held_, tensors);
         });
         return tensors;
     }
@@ -239,7 +285,10 @@ class Archive {
                     "it would take {} MiB more than the whole archive accounts for: made to exhaust its "
                     "readers; save it uncompressed if that is right",
                     (member.size - room_) >> 20);
-            if (member.deflated) room_ -= member.size;
+            if (member.deflated) {
+                room_ -= member.size;
+                held_ += member.size;
+            }
             const auto text = zip_text(member, unpacked_.emplace_back(), member.size + 1);
             if (text.size() != member.size) throw Error("longer than the archive says: damaged");
             return text;
@@ -248,6 +297,7 @@ class Archive {
 
     std::deque<std::vector<char>>& unpacked_;
     std::uint64_t room_;  ///< bytes that may still be inflated
+    std::uint64_t held_;  ///< bytes of the archive, and those inflated so far
     std::map<std::string, ZipMember> members_;
     std::string folder_;
     std::map<std::string, std::string_view> texts_;
@@ -331,9 +381,10 @@ std::vector<TorchTensor> read_old(std::string_view bytes) {
     });
     const auto storages = old_storages(keys.root(), ids, pickles);
     std::vector<TorchTensor> tensors;
+    const std::uint64_t held = bytes.size();
     within(part, [&] {
         collect(
-            object.root(), [&](const StorageId& id) { return storage_named(storages, id); }, tensors);
+            object.root(), [&](const StorageId& id) { return storage_named(storages, id); }, held, tensors);
     });
     return tensors;
 }

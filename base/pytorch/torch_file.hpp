@@ -30,7 +30,8 @@ struct TorchTensor {
 class TorchFile {
   public:
     /// Throws Error, saying where in the file but not in which file, for what is damaged, cut short, reaches beyond its storage or
-    /// is no file of PyTorch's, and for a pickle that names anything else.
+    /// is no file of PyTorch's, for a pickle that names anything else, and for names of more than 1000 bytes and tensors of many
+    /// times the file's numbers, which storages that they share make possible.
     explicit TorchFile(std::string_view bytes);
 
     const std::vector<TorchTensor>& tensors() const { return tensors_; }

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
+#include "eval/metrics/confusion.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -67,6 +68,7 @@ GruFile read_gru_weights(const std::filesystem::path& path) {
     GruFile weights;
     weights.source = path.string();
     static_cast<RecogniserAttributes&>(weights) = read_attributes(file, weights.source);
+    check_class_count(weights.classes, weights.source);
     if (weights.channels % weights.representation.numbers() != 0)
         throw Error("{}: attribute 'channels' is {}, and {} has {} numbers a node and person", weights.source,
                     weights.channels, weights.representation.name(), weights.representation.numbers());

@@ -5,9 +5,20 @@
 #include <string>
 #include <vector>
 
+#include "base/error.hpp"
 #include "eval/metrics/samples.hpp"
 
 namespace actformer::eval {
+
+/// Of a Confusion, which has their square in counts.
+inline constexpr std::size_t most_confused_classes = 4096;
+
+/// Throws Error, beginning with `where`, for more classes.
+inline void check_class_count(std::size_t classes, const std::string& where) {
+    if (classes > most_confused_classes)
+        throw Error("{}: {} classes, and scores are of up to {}: leave out those without samples", where,
+                    classes, most_confused_classes);
+}
 
 class Confusion {
   public:

@@ -5,6 +5,7 @@
 #include "base/checksum/own_checksum.hpp"
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
+#include "eval/metrics/confusion.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -93,6 +94,7 @@ StoredFeatures read_features(const std::filesystem::path& path) {
         const auto [rows, classes] = matrix(file, "logits", where);
         if (rows != count)
             throw Error("{}: {} rows of logits do not go with {} of features", where, rows, count);
+        check_class_count(classes, where);
         samples.classes = classes;
         samples.logits = file.read<float>("logits");
     }

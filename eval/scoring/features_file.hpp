@@ -42,7 +42,7 @@ struct StoredFeatures {
 
 /// Reads a features file of this program or another's: `features` (n, d), `labels` (n), and where they are there `logits`
 /// (n, classes) and `names` (n), numbers of any type. Throws Error naming the file for what is missing, damaged, of another
-/// shape, not finite, or no label.
+/// shape, not finite, or no label, and for logits of more classes than a Confusion has.
 StoredFeatures read_features(const std::filesystem::path& path);
 
 /// Whether a file holds features that this program wrote: they name the view of the motions that they are of. Throws Error where it is no

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "base/hdf5/writer.hpp"
+#include "eval/metrics/confusion.hpp"
 #include "eval/weights_reader.hpp"
 #include "eval/weights_writer.hpp"
 
@@ -58,6 +59,7 @@ StgcnWeights read_stgcn_weights(const std::filesystem::path& file_path) {
     StgcnWeights weights;
     weights.source = path;
     auto about = read_attributes(file, path);
+    check_class_count(about.classes, path);
     weights.channels = about.channels;
     weights.classes = about.classes;
     weights.representation = about.representation;

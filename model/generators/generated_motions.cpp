@@ -148,7 +148,7 @@ Loaded load(const eval::GeneratedRequest& request) {
 
 }  // namespace
 
-std::vector<eval::MotionSet> generated_sets(const eval::GeneratedRequest& request) {
+std::vector<eval::MotionSet> generated_sets(const eval::GeneratedRequest& request) try {
     set_threads(0);
     const auto loaded = std::make_shared<const Loaded>(load(request));
     std::vector<eval::MotionSet> sets;
@@ -163,6 +163,8 @@ std::vector<eval::MotionSet> generated_sets(const eval::GeneratedRequest& reques
         sets.push_back(std::move(set));
     }
     return sets;
+} catch (const c10::Error& e) {
+    throw Error("libtorch: {}", one_line(e));
 }
 
 }  // namespace actformer::model

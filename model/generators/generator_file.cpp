@@ -12,6 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint32_t most_persons = 16;  // as in configurations
+
 std::string text_of(const hdf5::Reader& file, const std::string& name, const std::string& where) {
     const auto texts = file.attribute_texts(name);
     if (texts.size() != 1) throw Error("{}: attribute '{}' is not one text: damaged", where, name);
@@ -42,6 +44,9 @@ GeneratorFile load_generator(const fs::path& path) {
         throw Error("{}: not the weights of a generator; give a generator's RUN or its weights-*.h5", where);
     auto subjects = ingest::read_subjects(file, where);
     if (!subjects) throw Error("{}: does not say whose motions it generates: damaged", where);
+    if (subjects->persons > most_persons)
+        throw Error("{}: motions of {} persons, and generators make up to {}: damaged", where,
+                    subjects->persons, most_persons);
     auto config = generator_config(method_named(text_of(file, "model", where), where));
     config.load_text(text_of(file, "configuration", where), where);
     return {at, std::move(config), std::move(*subjects), checksum_file(at), read_arrays(file, where)};

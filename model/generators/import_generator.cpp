@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "model/generators/generator_file.hpp"
+#include "model/nn/one_line.hpp"
 #include "model/nn/torch_arrays.hpp"
 
 namespace actformer::model {
@@ -36,7 +37,7 @@ std::uint64_t count_of(const std::vector<Array>& weights) {
 
 }  // namespace
 
-ImportedGenerator import_generator(const ImportGeneratorRequest& request) {
+ImportedGenerator import_generator(const ImportGeneratorRequest& request) try {
     const auto arrays = read_torch_arrays(request.file);
     const ingest::Dataset dataset(ingest::one_dataset_at(request.data));
     const auto subjects = ingest::subjects_of(dataset);
@@ -51,6 +52,8 @@ ImportedGenerator import_generator(const ImportGeneratorRequest& request) {
                     {"imported", request.file.filename().string()},
                     {"imported_checksum", checksum_file(request.file)}});
     return {found.method->name, found.method->title, count_of(found.weights.weights), spec.classes};
+} catch (const c10::Error& e) {
+    throw Error("libtorch: {}", one_line(e));
 }
 
 }  // namespace actformer::model

@@ -85,7 +85,7 @@ struct Method {
                                         const LearnerSetup& setup) = nullptr;
 
     /// `weights` as a learner gives them, on libtorch's device `device`. Throws Error, beginning with spec.where, for weights
-    /// that are missing or of another shape.
+    /// that are missing or of another shape, before it takes the memory that the configuration asks for (check_weights_fit).
     std::unique_ptr<Maker> (*maker)(const Config& config, const MotionSpec& spec,
                                     const std::vector<Array>& weights, const std::string& device) = nullptr;
 

@@ -12,19 +12,36 @@
 namespace actformer::model {
 namespace {
 
+// All arrays are looked at for every prefix, and those behind it are copied: an array is behind no more than most_dots + 1 of them.
+constexpr std::ptrdiff_t most_dots = 32;
+constexpr std::size_t most_prefixes = 1000;
+
+/// Those of a group's names, each with the dot behind it.
+void add_prefixes(const std::string& group, std::set<std::string>& prefixes) {
+    if (const auto dots = std::ranges::count(group, '.'); dots > most_dots)
+        throw Error("tensors behind {} names, as in {}, where {} are enough: made to exhaust its readers",
+                    dots, in_quotes(group), most_dots);
+    for (auto dot = group.find('.'); dot != std::string::npos; dot = group.find('.', dot + 1))
+        prefixes.insert(group.substr(0, dot + 1));
+    if (prefixes.size() > most_prefixes)
+        throw Error(
+            "tensors in more than {} dicts, as in {}: made to exhaust its readers; save the model's "
+            "state_dict() alone",
+            most_prefixes, in_quotes(group));
+}
+
 TorchArrays arrays_of_file(const TorchFile& file) {
     TorchArrays out;
-    std::set<std::string> groups{""};
+    std::set<std::string> prefixes{""};
     for (const auto& tensor : file.tensors()) {
         auto group = tensor.group;
         std::ranges::replace(group, '/', '.');
         if (!group.empty()) group += '.';
-        for (auto dot = group.find('.'); dot != std::string::npos; dot = group.find('.', dot + 1))
-            groups.insert(group.substr(0, dot + 1));
+        add_prefixes(group, prefixes);
         out.arrays.push_back(
             {group + tensor.name, {tensor.shape.begin(), tensor.shape.end()}, tensor.values()});
     }
-    out.prefixes.assign(groups.begin(), groups.end());
+    out.prefixes.assign(prefixes.begin(), prefixes.end());
     return out;
 }
 

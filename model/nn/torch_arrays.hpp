@@ -18,7 +18,7 @@ struct TorchArrays {
 };
 
 /// Of a state_dict, or a dict that holds state_dicts, saved by torch.save. Nothing in the file is run. Throws Error, one line
-/// that names the file and the place in it, for what is damaged or would have to be run.
+/// that names the file and the place in it, for what is damaged, would have to be run, or was made to exhaust its readers.
 TorchArrays read_torch_arrays(const std::filesystem::path& file);
 
 /// The shape of an array of two axes; {0, 0} where there is none of that name.

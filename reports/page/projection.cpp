@@ -13,6 +13,15 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 
 constexpr double unit = 4096, furthest = 7.999;  // deviations that 16 bits hold
 constexpr std::size_t most_points = 1200;        // that a chart can show apart
+constexpr std::size_t most_dimensions = 4096;    // whose covariance, their square, is found in a minute
+
+/// What samples must be to have axes. Throws Error before any memory is taken.
+std::size_t dimensions_of(const eval::Samples& real) {
+    if (real.dimensions > most_dimensions)
+        throw Error("features of {} dimensions, and a plane through up to {} is drawn", real.dimensions,
+                    most_dimensions);
+    return real.dimensions;
+}
 
 Eigen::Map<const Rows> matrix_of(const eval::Samples& samples) {
     return {samples.features.data(), static_cast<Eigen::Index>(samples.size()),
@@ -22,7 +31,7 @@ Eigen::Map<const Rows> matrix_of(const eval::Samples& samples) {
 }  // namespace
 
 Projection::Projection(const eval::Samples& real)
-    : dimensions_(real.dimensions), mean_(dimensions_), axes_(2 * dimensions_) {
+    : dimensions_(dimensions_of(real)), mean_(dimensions_), axes_(2 * dimensions_) {
     const auto x = matrix_of(real);
     Eigen::Map<Eigen::RowVectorXd> mean(mean_.data(), static_cast<Eigen::Index>(dimensions_));
     mean = x.colwise().mean();

@@ -18,7 +18,7 @@ struct Points {
 
 class Projection {
   public:
-    /// Of at least two real samples.
+    /// Of at least two real samples. Throws Error for more than 4096 dimensions.
     explicit Projection(const eval::Samples& real);
 
     const Points& real() const { return real_; }

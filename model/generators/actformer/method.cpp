@@ -5,6 +5,7 @@
 #include "model/generators/actformer/layers.hpp"
 #include "model/generators/adversarial/learner.hpp"
 #include "model/generators/adversarial/maker.hpp"
+#include "model/generators/weights_fit.hpp"
 
 namespace actformer::model {
 namespace {
@@ -32,6 +33,7 @@ std::unique_ptr<Learner> learner(const Config& config, const MotionSpec& spec, c
 std::unique_ptr<Maker> maker(const Config& config, const MotionSpec& spec, const std::vector<Array>& weights,
                              const std::string& device) {
     const auto settings = actformer_generator_settings(config, spec);
+    check_weights_fit(actformer_generator_weights(settings), weights, spec.where);
     return gan_maker(std::make_shared<ActFormerGenerator>(settings, 0), settings.frames, weights, spec.where,
                      device);
 }

@@ -4,6 +4,7 @@
 #include "model/generators/action2motion/learner.hpp"
 #include "model/generators/action2motion/maker.hpp"
 #include "model/generators/action2motion/public_weights.hpp"
+#include "model/generators/weights_fit.hpp"
 
 namespace actformer::model::action2motion {
 namespace {
@@ -18,7 +19,9 @@ std::unique_ptr<Learner> learner(const Config& config, const MotionSpec& spec, c
 
 std::unique_ptr<Maker> maker(const Config& config, const MotionSpec& spec, const std::vector<Array>& weights,
                              const std::string& device) {
-    return std::make_unique<MotionMaker>(settings_of(config, spec), weights, device, spec.where);
+    const auto settings = settings_of(config, spec);
+    check_weights_fit(weights_of(settings), weights, spec.where);
+    return std::make_unique<MotionMaker>(settings, weights, device, spec.where);
 }
 
 }  // namespace

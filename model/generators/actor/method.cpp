@@ -7,6 +7,7 @@
 #include "model/generators/actor/learner.hpp"
 #include "model/generators/actor/public_weights.hpp"
 #include "model/generators/finish.hpp"
+#include "model/generators/weights_fit.hpp"
 #include "model/nn/module_arrays.hpp"
 #include "model/train/torch_device.hpp"
 
@@ -64,6 +65,7 @@ class ActorMaker : public Maker {
 
 std::unique_ptr<Maker> maker(const Config& config, const MotionSpec& spec, const std::vector<Array>& weights,
                              const std::string& device) {
+    check_weights_fit(actor_weights(actor_settings(config, spec)), weights, spec.where);
     return std::make_unique<ActorMaker>(config, spec, weights, device);
 }
 

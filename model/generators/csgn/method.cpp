@@ -4,6 +4,8 @@
 #include "model/generators/adversarial/maker.hpp"
 #include "model/generators/csgn/discriminator.hpp"
 #include "model/generators/csgn/generator.hpp"
+#include "model/generators/csgn/layers.hpp"
+#include "model/generators/weights_fit.hpp"
 
 namespace actformer::model {
 namespace {
@@ -30,6 +32,7 @@ std::unique_ptr<Learner> learner(const Config& config, const MotionSpec& spec, c
 std::unique_ptr<Maker> maker(const Config& config, const MotionSpec& spec, const std::vector<Array>& weights,
                              const std::string& device) {
     const auto settings = csgn_settings(config, spec);
+    check_weights_fit(csgn_generator_weights(settings), weights, spec.where);
     return gan_maker(std::make_shared<CsgnGenerator>(settings, 0), settings.frames, weights, spec.where,
                      device);
 }

@@ -9,12 +9,13 @@
 
 #include "base/error.hpp"
 #include "base/pickle/pickle.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/pickle_text.hpp"
 #include "tests/support/zip_parts.hpp"
 
 using namespace actformer;
 using namespace actformer::test::pickled;
-using actformer::test::deflate_raw, actformer::test::number;
+using actformer::test::deflate_raw, actformer::test::error_of, actformer::test::number;
 
 namespace {
 
@@ -55,6 +56,20 @@ struct Tensor {
                "R";
     }
 };
+
+/// A pickled value that says itself once, and then stands for itself in five bytes.
+std::string remembered(const std::string& value) {
+    return value + "r" + four(77);
+}
+const std::string the_remembered = "j" + four(77);
+
+/// Tensors 0, 1, 2, ... that are all the same one.
+std::string same_tensors(const Tensor& tensor, int count) {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (int i = 0; i < count; ++i)
+        all.emplace_back(std::to_string(i), i == 0 ? remembered(tensor.pickled()) : the_remembered);
+    return dict(all);
+}
 
 struct Stored {
     std::string key;
@@ -250,6 +265,35 @@ TEST(TorchFile, InflatesNoMoreThanTheArchiveAccountsFor) {
     again.list_name("data/2");
     again.list_name("data/3");
     expect_fault(again.bytes(), "data/3: it would take 8 MiB more than the whole archive accounts for");
+}
+
+TEST(TorchFile, ReadsStoragesThatTensorsShareAFewTimes) {
+    const int count = 1 << 20;
+    const Stored zeros{"7", std::uint64_t{count}, std::string(std::size_t{4} * count, '\0')};
+    const Tensor tensor{.count = count, .shape = {count}, .strides = {1}};
+    const auto few = old_file(same_tensors(tensor, 15), {zeros}),
+               many = old_file(same_tensors(tensor, 16), {zeros});
+    EXPECT_EQ(TorchFile(few).tensors().size(), 15U) << "60 MiB";
+    const auto fault = error_of([&] { TorchFile{many}; });
+    EXPECT_NE(fault.find("more than 64 MiB of tensors, in storages of 4 MiB"), std::string::npos) << fault;
+}
+
+TEST(TorchFile, RefusesNamesAndShapesThatOnlyTakeMemory) {
+    const std::string enough = "bytes, where 1000 are enough";
+    const auto name = [](std::size_t size) { return std::string(size, 'n'); };
+    const auto named = [&](std::size_t size) { return dict({{name(size), Tensor{}.pickled()}}); };
+    const auto in_group = [&](std::size_t size) { return dict({{name(size), named(500)}}); };
+    EXPECT_EQ(fault_of(old_file(named(1000), {six})), "");
+    EXPECT_EQ(fault_of(old_file(in_group(500), {six})), "");
+    for (const auto& object : {named(1001), in_group(501), in_group(1001)})
+        expect_fault(old_file(object, {six}), enough);
+    expect_fault(old_file(dict({{"a", Tensor{.key = name(1001)}.pickled()}}), {six}), enough);
+    const std::vector<int> ones(33, 1);
+    expect_fault(old_file(dict({{"a", Tensor{.shape = ones, .strides = ones}.pickled()}}), {six}),
+                 "33 numbers in a tensor's shape or strides");
+    const Tensor none{.count = 0, .shape = {0}, .strides = {1}};
+    expect_fault(old_file(dict({{name(900), same_tensors(none, 80'000)}}), {{"7", 0, ""}}),
+                 "more than 64 MiB of tensors");
 }
 
 TEST(TorchFile, RefusesWhatIsDamagedOrCutShort) {

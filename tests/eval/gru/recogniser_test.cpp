@@ -226,6 +226,13 @@ TEST_F(GruTest, RefusesBadFiles) {
     refused({"xyz", 3, 24, {}, {}, {}}, "recurrent.weight_ih_l0");
     refused({"xyz", 4, 18, {}, {}, {}}, "channels");
     refused({"euler", 3, 18, {}, {}, {}}, "euler");
+    write_gru(dir / "bad.h5", {54, 16, 1, 4097}, random_tensors({54, 16, 1, 4097}), {});
+    try {
+        read_gru_weights(dir / "bad.h5");
+        ADD_FAILURE() << "taken";
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("bad.h5: 4097 classes"), std::string::npos) << e.what();
+    }
 }
 
 TEST_F(GruTest, AgreesWithPyTorch) {

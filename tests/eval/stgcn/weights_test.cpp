@@ -93,6 +93,7 @@ TEST(StgcnWeights, NameWhatIsWrong) {
         Changed([](auto& w, auto&) { w.tensors["fcn.weight"][3] = std::numeric_limits<float>::quiet_NaN(); }),
         "fcn.weight");
     expect_refusal(Changed([&](auto& w, auto&) { w.tensors[norm][0] = -1; }), norm);
+    expect_refusal(Changed([](auto& w, auto&) { w.classes = 4097; }), "4097 classes");
 }
 
 TEST(StgcnWeights, RefuseParentsThatAreNoTree) {
