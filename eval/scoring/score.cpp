@@ -283,7 +283,7 @@ Json provenance_of_motions(const ScoreMotions& request, const Sides& sides, cons
     out["real"] = {{"dataset", dataset.header().name},
                    {"path", printable(request.real.dataset.string())},
                    {"fingerprint", dataset.fingerprint()},
-                   {"split", request.real.split},
+                   {"split", printable(request.real.split)},
                    {"window", request.real.window}};
     if (const auto origin = ingest::to_json(dataset.header().origin); !origin.empty())
         out["real"]["origin"] = origin;

@@ -18,6 +18,8 @@ class Reader;
 
 namespace actformer::ingest {
 
+inline constexpr std::size_t most_fields = 1000;  ///< of a clip: each is a column in every shard
+
 /// What dataset.json says, shards apart.
 struct DatasetHeader {
     std::string name;  ///< as in "ntu-1p"

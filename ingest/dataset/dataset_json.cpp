@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
@@ -75,6 +76,31 @@ DataOrigin origin_from_json(const Json& json, const std::string& where) {
     return origin;
 }
 
+/// They lie beside dataset.json, each once.
+void check_shards(const std::vector<ShardEntry>& shards, const std::string& where) {
+    std::set<std::string_view> seen;
+    for (const auto& shard : shards) {
+        const std::filesystem::path file = shard.file;
+        if (!lies_below(file) || file.has_parent_path())
+            throw Error("{}: shard {} is no file's name; ingest the raw data again", where,
+                        in_quotes(shard.file));
+        if (!seen.insert(shard.file).second)
+            throw Error("{}: shard {} is there twice; ingest the raw data again", where,
+                        in_quotes(shard.file));
+    }
+}
+
+/// Every field is read of every clip.
+void check_columns(const std::vector<std::string>& fields, const std::string& where) {
+    if (fields.size() > most_fields)
+        throw Error("{}: {} fields, and a clip has at most {}; ingest the raw data again", where,
+                    fields.size(), most_fields);
+    std::set<std::string_view> seen;
+    for (const auto& field : fields)
+        if (!seen.insert(field).second)
+            throw Error("{}: field {} is there twice; ingest the raw data again", where, in_quotes(field));
+}
+
 DatasetFile from_json(const Json& json, const std::string& where) {
     if (const auto format = json.at("format").get<int>(); format < 1 || format > dataset_format)
         throw Error(
@@ -97,10 +123,12 @@ DatasetFile from_json(const Json& json, const std::string& where) {
                        json.at("topology").at("parents").get<std::vector<int>>()};
     header.classes = json.at("classes").get<std::vector<std::string>>();
     header.fields = json.at("fields").get<std::vector<std::string>>();
+    check_columns(header.fields, where);
     header.splits = splits_from_json(json.at("splits"));
     file.settings = json.at("settings").get<std::string>();
     file.fingerprint = json.at("source").get<std::string>();
     for (const auto& shard : json.at("shards")) file.shards.push_back(shard_from_json(shard));
+    check_shards(file.shards, where);
     file.remarks = json.value("remarks", std::vector<std::string>());
     header.topology.check(where);
     header.rest = rest_from_json(json, header, where);
@@ -139,6 +167,12 @@ ShardEntry shard_from_json(const nlohmann::json& json) {
             json.at("frames").get<std::uint64_t>(),
             of_bytes,
             json.value("metadata", "")};
+}
+
+bool lies_below(const std::filesystem::path& file) {
+    return file.is_relative() && file.has_filename() &&
+           std::none_of(file.begin(), file.end(),
+                        [](const std::filesystem::path& part) { return part == "." || part == ".."; });
 }
 
 std::string to_text(const DatasetFile& file) {

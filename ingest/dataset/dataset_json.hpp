@@ -35,4 +35,7 @@ nlohmann::ordered_json to_json(const DataOrigin& origin);
 nlohmann::ordered_json to_json(const ShardEntry& shard);
 ShardEntry shard_from_json(const nlohmann::json& json);
 
+/// Whether `file` leads to something below the folder it is told of: no way up, and not from the root.
+bool lies_below(const std::filesystem::path& file);
+
 }  // namespace actformer::ingest

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <unordered_map>
 #include <unordered_set>
 
 #include "base/text/printable.hpp"
@@ -53,10 +54,12 @@ std::string fit_name(std::string_view name, NameFor use) {
 std::vector<std::string> fit_names(const std::vector<std::string>& names, NameFor use) {
     std::vector<std::string> out;
     std::unordered_set<std::string> taken;
+    std::unordered_map<std::string, std::size_t> next;  // numbers below it are taken
     for (const auto& name : names) {
         const auto fit = fit_name(name, use);
         auto one = fit;
-        for (int i = 2; !taken.insert(one).second; ++i) one = fmt::format("{}_{}", fit, i);
+        auto& number = next.try_emplace(fit, std::size_t{2}).first->second;
+        for (; !taken.insert(one).second; ++number) one = fmt::format("{}_{}", fit, number);
         out.push_back(one);
     }
     return out;

@@ -7,6 +7,7 @@
 #include "base/files/file.hpp"
 #include "base/text/lines.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/dataset/dataset.hpp"
 #include "ingest/formats/name_pattern.hpp"
 
 namespace actformer::ingest {
@@ -31,8 +32,10 @@ class CsvReader {
             if (text_.empty()) return false;
             record.clear();
             line_ = next_line_;
-            while (read_field(record.emplace_back())) {
-            }
+            while (read_field(record.emplace_back()))
+                if (record.size() == most_fields)
+                    throw Error("{}: more than {} columns; leave out what no split asks for", place(),
+                                most_fields);
         } while (record.size() == 1 && record[0].empty());
         return true;
     }
@@ -131,13 +134,11 @@ std::optional<std::uint32_t> frame_in(const std::string& text, const std::string
     return frame;
 }
 
-std::string_view last_part(std::string_view path) {
-    return path.substr(path.find_last_of('/') + 1);
-}
-
-/// `row` is the end of `path`, and begins where a part of it does.
-bool is_end_of(std::string_view row, std::string_view path) {
-    return path.ends_with(row) && (path.size() == row.size() || path[path.size() - row.size() - 1] == '/');
+/// A row's, as find() looks for it.
+std::string own_path(std::string_view file) {
+    file = without_extension(file);
+    while (file.starts_with("./")) file.remove_prefix(2);
+    return std::string(file);
 }
 
 }  // namespace
@@ -177,7 +178,9 @@ void LabelsFile::read(std::string_view text, const std::string& where) {
                         row.start.value_or(0));
         row.fields.push_back(row.action);
         for (const auto c : columns.others) row.fields.push_back(printable(record[c]));
-        by_name_[std::string(last_part(without_extension(row.file)))].push_back(rows_.size());
+        auto own = own_path(row.file);
+        longest_path_ = std::max(longest_path_, own.size());
+        by_path_[std::move(own)].push_back(rows_.size());
         rows_.push_back(std::move(row));
     }
     if (rows_.empty()) throw Error("{}: no row below the one that names the columns", where);
@@ -185,19 +188,13 @@ void LabelsFile::read(std::string_view text, const std::string& where) {
 
 std::vector<std::size_t> LabelsFile::find(std::string_view path) const {
     path = without_extension(path);
-    const auto found = by_name_.find(std::string(last_part(path)));
-    if (found == by_name_.end()) return {};
-    std::vector<std::size_t> best;
-    std::size_t longest = 0;
-    for (const auto i : found->second) {
-        auto file = without_extension(rows_[i].file);
-        while (file.starts_with("./")) file.remove_prefix(2);
-        if (!is_end_of(file, path) || file.size() < longest) continue;
-        if (file.size() > longest) best.clear();
-        longest = file.size();
-        best.push_back(i);
+    for (;;) {
+        const auto found = path.size() <= longest_path_ ? by_path_.find(std::string(path)) : by_path_.end();
+        if (found != by_path_.end()) return found->second;
+        const auto slash = path.find('/');
+        if (slash == std::string_view::npos) return {};
+        path.remove_prefix(slash + 1);
     }
-    return best;
 }
 
 }  // namespace actformer::ingest

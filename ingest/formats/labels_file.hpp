@@ -44,7 +44,8 @@ class LabelsFile {
 
     std::vector<LabelRow> rows_;
     std::vector<std::string> fields_;
-    std::unordered_map<std::string, std::vector<std::size_t>> by_name_;  ///< last part of the path -> rows
+    std::unordered_map<std::string, std::vector<std::size_t>> by_path_;  ///< a row's path -> rows
+    std::size_t longest_path_ = 0;                                       ///< bytes, of a row's
 };
 
 }  // namespace actformer::ingest

@@ -46,10 +46,8 @@ Rejection::Kind kind_from(const Json& json) {
 /// Throws Error where its file does not lie below the working folder's data.
 KeptShard shard_from(const Json& json) {
     KeptShard shard{shard_from_json(json.at("shard")), json.at("bytes").get<std::string>()};
-    const fs::path file = shard.entry.file;
-    if (file.is_absolute() ||
-        std::any_of(file.begin(), file.end(), [](const fs::path& part) { return part == ".."; }))
-        throw Error("{}: not below the working folder's data", file.string());
+    if (!lies_below(shard.entry.file))
+        throw Error("{}: not below the working folder's data", shard.entry.file);
     return shard;
 }
 

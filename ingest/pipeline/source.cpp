@@ -110,14 +110,25 @@ class Unpacked {
     int descriptor_ = -1;
 };
 
+/// What libarchive unpacks itself, of the archive alone: for other compressions, as lrzip's and grzip's, it starts a program that it finds in
+/// PATH, and of an mtree it reads any file that its text names.
+void support_what_is_wanted(archive* reader) {
+    for (const auto support :
+         {archive_read_support_format_tar, archive_read_support_format_zip, archive_read_support_format_7zip,
+          archive_read_support_format_rar, archive_read_support_format_rar5, archive_read_support_format_cpio,
+          archive_read_support_filter_gzip, archive_read_support_filter_bzip2, archive_read_support_filter_xz,
+          archive_read_support_filter_lzma, archive_read_support_filter_zstd, archive_read_support_filter_lz4,
+          archive_read_support_filter_compress})
+        support(reader);
+}
+
 /// One archive, read front to back.
 class Archive {
   public:
     Archive(fs::path path, std::uint64_t largest_file)
         : path_(std::move(path)), largest_(largest_file), reader_(archive_read_new(), &archive_read_free) {
         check_no_html(path_);
-        archive_read_support_filter_all(reader_.get());
-        archive_read_support_format_all(reader_.get());
+        support_what_is_wanted(reader_.get());
         if (archive_read_open_filename(reader_.get(), path_.c_str(), std::size_t{1} << 17) != ARCHIVE_OK)
             throw Error("{}: neither a folder nor an archive that can be read: {}", path_.string(),
                         message());

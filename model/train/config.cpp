@@ -9,7 +9,7 @@
 #include <set>
 
 #include "base/error.hpp"
-#include "base/files/regular_file.hpp"
+#include "base/files/file.hpp"
 #include "base/text/nearest_word.hpp"
 #include "base/text/printable.hpp"
 
@@ -132,11 +132,21 @@ std::string text_of(const Value& value) {
     return std::visit(Say{}, value);
 }
 
+/// None where it is not there. Throws Error where it cannot be read, or is larger than any configuration.
+std::optional<std::string> configuration_text(const std::filesystem::path& file) {
+    constexpr std::uint64_t largest = std::uint64_t{16} << 20;
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) return {};
+    std::vector<char> scratch;
+    return std::string(read_text(file, scratch, largest));
+}
+
 }  // namespace
 
 std::string model_named_in(const std::filesystem::path& file) try {
-    refuse_irregular(file);
-    const auto root = YAML::LoadFile(file.string());
+    const auto text = configuration_text(file);
+    if (!text) return {};
+    const auto root = YAML::Load(*text);
     return root.IsMap() && root["model"] ? scalar(root["model"]) : "";
 } catch (const YAML::Exception&) {
     return {};
@@ -171,14 +181,9 @@ const Value& Config::value(const std::string& name) const {
 }
 
 void Config::load(const std::filesystem::path& file) {
-    refuse_irregular(file);
-    try {
-        take(YAML::LoadFile(file.string()), file.string());
-    } catch (const YAML::BadFile&) {
-        throw Error("{}: cannot be read; is the path right?", file.string());
-    } catch (const YAML::Exception& e) {
-        throw Error("{}:{}: no YAML: {}", file.string(), e.mark.line + 1, e.msg);
-    }
+    const auto text = configuration_text(file);
+    if (!text) throw Error("{}: cannot be read; is the path right?", file.string());
+    load_text(*text, file.string());
 }
 
 void Config::load_text(const std::string& text, const std::string& where) {

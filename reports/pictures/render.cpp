@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/lower_case.hpp"
+#include "base/text/printable.hpp"
 #include "base/text/suggestion.hpp"
 #include "reports/pictures/gif.hpp"
 #include "reports/pictures/video.hpp"
@@ -30,7 +31,7 @@ void write_png(const std::filesystem::path& path, const cv::Mat& picture) {
 }
 
 void render(const std::vector<JointMotion>& motions, const Layout& layout, const std::filesystem::path& path,
-            const Watcher& watch) {
+            const Watcher& watch) try {
     switch (picture_kind(path)) {
         case PictureKind::png:
             write_png(path, contact_sheet(motions, layout));
@@ -42,6 +43,9 @@ void render(const std::vector<JointMotion>& motions, const Layout& layout, const
             write_mp4(path, animation(motions, layout), watch);
             break;
     }
+} catch (const cv::Exception& e) {
+    throw Error("{}: cannot be drawn: {}; choose a smaller --size, or fewer motions", path.string(),
+                printable(e.err));
 }
 
 }  // namespace actformer::reports

@@ -3,21 +3,31 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "base/error.hpp"
+#include "base/files/file.hpp"
 #include "reports/sweep/job.hpp"
 
 namespace actformer::reports {
 
-/// Of a key; `otherwise` where there is no such file or key, or it says no T.
+/// Bytes of a sweep's YAML, or of a configuration that it names.
+inline constexpr std::uint64_t largest_yaml = std::uint64_t{16} << 20;
+
+/// Of a key; `otherwise` where there is no such file or key, it says no T, or the file is larger than any configuration.
 template <typename T>
 T in_configuration(const std::filesystem::path& file, const std::string& key, T otherwise) {
     std::error_code unread;
     if (!std::filesystem::is_regular_file(file, unread)) return otherwise;
+    std::vector<char> scratch;
     try {
-        return YAML::LoadFile(file.string())[key].as<T>(otherwise);
+        return YAML::Load(std::string(read_text(file, scratch, largest_yaml)))[key].as<T>(otherwise);
     } catch (const YAML::Exception&) {
+        return otherwise;
+    } catch (const Error&) {
         return otherwise;
     }
 }

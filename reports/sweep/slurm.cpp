@@ -12,6 +12,7 @@
 #include "base/process/interruption.hpp"
 #include "base/process/process.hpp"
 #include "base/text/loose_json.hpp"
+#include "base/text/printable.hpp"
 #include "reports/sweep/kept.hpp"
 #include "reports/sweep/run.hpp"
 #include "reports/sweep/waiting_lock.hpp"
@@ -62,15 +63,17 @@ std::string comment_of_jobs(const fs::path& out) {
     return fs::absolute(out / "jobs").lexically_normal().string() + "/";
 }
 
-/// Takes what squeue prints of a job: its number, state, reason (which may have spaces) and comment.
+/// Takes what squeue prints of a job: its number, state, reason (which may have spaces) and comment, which may hold any bytes: JSON takes
+/// text alone.
 void take_line(const std::string& line, const std::string& own, Queue& queue) {
     std::istringstream words(line);
     std::string number, state, reason, comment;
     for (auto* word : {&number, &state, &reason}) std::getline(words, *word, '|');
     std::getline(words, comment);
     if (state == "CG" || reason == "DependencyNeverSatisfied") return;
+    number = printable(number);
     queue.numbers.insert(number);
-    if (comment.starts_with(own)) queue.ours[comment.substr(own.size())] = number;
+    if (comment.starts_with(own)) queue.ours[printable(comment.substr(own.size()))] = number;
 }
 
 /// What squeue tells; none where it does not answer. Left out are jobs that are over but for the tidying up, and those that wait for

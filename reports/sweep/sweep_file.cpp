@@ -10,6 +10,7 @@
 #include "base/text/suggestion.hpp"
 #include "base/text/utf8.hpp"
 #include "ingest/formats/formats.hpp"
+#include "reports/sweep/configuration.hpp"
 #include "reports/tables/own_tables.hpp"
 
 namespace actformer::reports {
@@ -294,10 +295,9 @@ void refuse_other_than_utf8(std::string_view text, const std::string& file) {
 }
 
 Node load(const std::filesystem::path& file) {
-    constexpr std::uint64_t largest = std::uint64_t{16} << 20;
     refuse_irregular(file);
     std::vector<char> scratch;
-    const auto text = read_text(file, scratch, largest);
+    const auto text = read_text(file, scratch, largest_yaml);
     refuse_other_than_utf8(text, file.string());
     try {
         return YAML::Load(std::string(text));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/command.hpp"
+#include "tests/support/odd_split.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/toy_dataset.hpp"
@@ -136,6 +137,13 @@ TEST_F(Compare, TakesMotionsAndSaysThatOneRepeatTellsNothingOfChance) {
     ASSERT_EQ(result.exit, 0) << result.output;
     EXPECT_NE(result.output.find("one repeat: chance is not told"), std::string::npos) << result.output;
     EXPECT_EQ(result.output.find(" is better"), std::string::npos) << result.output;
+
+    copy_with_odd_split(toy(), dir / "odd");
+    const auto odd =
+        run_actformer("compare " + at("one.h5") + " " + at("other.h5") + " --recogniser " + at("r") +
+                      " --real " + at("odd") + " --split '" + odd_split + "' --window 20 -o " + at("of-odd"));
+    ASSERT_EQ(odd.exit, 0) << odd.output;
+    EXPECT_EQ(Json::parse(read_file(dir / "of-odd/results.json"))["rows"][0]["split"], odd_split_in_json);
 
     const auto mixed = compare("one", "other.h5", "mixed");
     expect_refused(mixed, {at("one") + " is a generator and " + at("other.h5") + " a motions file",

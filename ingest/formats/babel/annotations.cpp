@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <unordered_set>
 
 #include "base/error.hpp"
 #include "base/text/html.hpp"
@@ -28,10 +29,11 @@ std::vector<std::string> categories(const Json& label, std::size_t index) {
     std::vector<std::string> out;
     if (value.is_null()) return out;
     if (!value.is_array()) throw Error("label {}: 'act_cat' is no list", index);
+    std::unordered_set<std::string_view> seen;
     for (const auto& one : value) {
         if (!one.is_string()) throw Error("label {}: 'act_cat' holds what is no text", index);
         const auto& name = one.get_ref<const std::string&>();
-        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+        if (seen.insert(name).second) out.push_back(name);
     }
     return out;
 }

@@ -105,3 +105,26 @@ TEST(Dataset, CentresWindowsByTheNodeThatMovesTheBody) {
         }
     }
 }
+
+TEST(Dataset, RefusesShardsThatAreNotBesideIt) {
+    for (const std::string name :
+         {"/etc/passwd", "../shard-00000.h5", "a/shard-00000.h5", "a/", "..", ".", ""})
+        EXPECT_EQ(error_after(Representation::limb, [&](auto& j) { j["shards"][0]["file"] = name; }),
+                  "dataset.json: shard '" + name + "' is no file's name; ingest the raw data again");
+    EXPECT_EQ(error_after(Representation::limb, [](auto& j) { j["shards"].push_back(j["shards"][0]); }),
+              "dataset.json: shard 'shard-00000.h5' is there twice; ingest the raw data again");
+    EXPECT_TRUE(lies_below("one/shard-00000.h5")) << "as a journal has them";
+    for (const auto* name : {"one/../../shard-00000.h5", "/one/shard-00000.h5", "one/", ""})
+        EXPECT_FALSE(lies_below(name)) << name;
+}
+
+TEST(Dataset, RefusesFieldsThatAreThereTwiceAndTooMany) {
+    const auto with = [](const std::vector<std::string>& fields) {
+        return error_after(Representation::limb, [&](auto& j) { j["fields"] = fields; });
+    };
+    EXPECT_EQ(with({"part", "part"}), "dataset.json: field 'part' is there twice; ingest the raw data again");
+    std::vector<std::string> many;
+    for (std::size_t i = 0; i <= most_fields; ++i) many.push_back(fmt::format("f{}", i));
+    EXPECT_EQ(with(many),
+              "dataset.json: 1001 fields, and a clip has at most 1000; ingest the raw data again");
+}

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 namespace actformer::ingest {
 namespace {
 
@@ -32,6 +34,15 @@ TEST(FitName, TextKeepsWhatIsPrintable) {
 TEST(FitNames, TellsThoseAlikeApart) {
     EXPECT_EQ(fit_names({"a b", "a_b", "a\tb", "c", "a_b_2"}, NameFor::bvh),
               (std::vector<std::string>{"a_b", "a_b_2", "a_b_3", "c", "a_b_2_2"}));
+}
+
+TEST(FitNames, TellsManyAlikeApartInNoTime) {
+    const std::vector<std::string> names(100'000, "a b");
+    const auto begin = std::chrono::steady_clock::now();
+    const auto fit = fit_names(names, NameFor::file);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+    EXPECT_EQ(fit.front(), "a b");
+    EXPECT_EQ(fit.back(), "a b_100000");
 }
 
 TEST(NamesChanged, SaysHowManyAndWhichFirst) {

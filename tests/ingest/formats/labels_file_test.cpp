@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "base/error.hpp"
 
 namespace actformer::ingest {
@@ -68,6 +70,29 @@ TEST(LabelsFile, FindsTheRowsOfAFile) {
     EXPECT_EQ(file.find("x/02"), (Rows{3, 4}));
     EXPECT_EQ(file.find("x/03"), Rows{5});
     EXPECT_EQ(file.find("x/04"), Rows{});
+}
+
+TEST(LabelsFile, FindsFilesOfOneNameInManyFoldersInNoTime) {
+    constexpr std::size_t files = 100'000;
+    std::string text = "file,label\n";
+    for (std::size_t i = 0; i < files; ++i) text += fmt::format("take{}/motion.bvh,walk\n", i);
+    const auto file = labels(text);
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < files; ++i)
+        ASSERT_EQ(file.find(fmt::format("raw/take{}/motion", i)), Rows{i});
+    std::string deep;
+    for (int i = 0; i < 500'000; ++i) deep += "a/";
+    EXPECT_EQ(file.find(deep + "take7/motion.bvh"), Rows{7});
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
+TEST(LabelsFile, RefusesMoreColumnsThanADatasetHasFields) {
+    std::string header = "file,action";
+    for (int i = 2; i < 1000; ++i) header += fmt::format(",f{}", i);
+    const std::string row = "\na,walk" + std::string(998, ',');
+    EXPECT_EQ(labels(header + row + "\n").fields().size(), 999U);
+    EXPECT_EQ(refusal(header + ",more" + row + ",\n"),
+              "labels.csv: line 1: more than 1000 columns; leave out what no split asks for");
 }
 
 TEST(LabelsFile, RefusesWhatCannotBeMeant) {

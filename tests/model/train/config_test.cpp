@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "model/generators/method.hpp"
 #include "model/recognisers/recogniser_settings.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -68,6 +69,20 @@ TEST_F(Configs, RefusesOtherTypesAndRanges) {
     expect_refused("model: recogniser\nnesterov: 3\n", {"true or false"});
     expect_refused("model: recogniser\nrate_drops: 10\n", {"list of whole numbers"});
     expect_refused("model: recogniser\nbatch: 99999999999999999999\n", {"batch"});
+}
+
+TEST_F(Configs, RefusesFilesLargerThanAnyConfiguration) {
+    const auto file = dir / "c.yaml";
+    write_file(file, "model: recogniser\n");
+    EXPECT_EQ(model_named_in(file), "recogniser");
+    std::filesystem::resize_file(file, (std::uintmax_t{16} << 20) + 1);
+    for (const auto& said : {error_of([&] { recogniser_config().load(file); }),
+                             error_of([&] { static_cast<void>(model_named_in(file)); })})
+        EXPECT_NE(said.find("c.yaml: 17 MiB, and a file of this kind has at most 16 MiB"), std::string::npos)
+            << said;
+    EXPECT_EQ(model_named_in(dir / "none.yaml"), "");
+    EXPECT_NE(error_of([&] { recogniser_config().load(dir / "none.yaml"); }).find("cannot be read"),
+              std::string::npos);
 }
 
 TEST_F(Configs, RefusesWhatIsNoConfiguration) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 
 #include "reports/pictures/draw.hpp"
@@ -9,6 +10,7 @@
 #include "reports/pictures/style.hpp"
 #include "reports/pictures/text.hpp"
 #include "tests/reports/motions/made_motions.hpp"
+#include "tests/support/little_memory.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -111,6 +113,22 @@ TEST(Stage, SurvivesAJointThatFliesOff) {
     auto cell = blank(100, 150);
     Stage(motion, {}).draw(cell, 30);
     EXPECT_GT(difference(cell, blank(100, 150)), 0.02);
+}
+
+TEST(Render, NamesThePictureThatThereIsNoMemoryFor) {
+    if (test::address_sanitized) GTEST_SKIP() << test::why_not;
+    const Folder folder;
+    Layout layout;
+    layout.size = 4000;
+    layout.columns = 6;
+    const auto draw = [&] {
+        test::leave_little_memory();
+        const auto said = error_of([&] { render({walkers(1, 30)}, layout, folder / "sheet.png"); });
+        const auto begins = (folder / "sheet.png").string() + ": cannot be drawn: ";
+        std::_Exit(said.starts_with(begins) && said.find("smaller --size") != std::string::npos ? 3 : 4);
+    };
+    EXPECT_EXIT(draw(), ::testing::ExitedWithCode(3), "");
+    EXPECT_EQ(folder.files(), 0U);
 }
 
 TEST(ContactSheet, HasARowAMotionAndAColumnASnapshot) {

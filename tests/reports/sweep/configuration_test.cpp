@@ -1,0 +1,23 @@
+// What a sweep reads of the configurations that it names.
+#include "reports/sweep/configuration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_dir.hpp"
+
+namespace actformer::reports {
+namespace {
+
+TEST(InConfiguration, TakesNothingOfAFileLargerThanAnyConfiguration) {
+    const test::TempDir dir;
+    const auto file = dir / "c.yaml";
+    const std::string text = "epochs: 7\n";
+    test::write_file(file, text);
+    EXPECT_EQ(in_configuration(file, "epochs", 0), 7);
+    EXPECT_EQ(in_configuration(dir / "none.yaml", "epochs", 0), 0);
+    test::write_file(file, text + std::string(largest_yaml, '\n'));
+    EXPECT_EQ(in_configuration(file, "epochs", 0), 0);
+}
+
+}  // namespace
+}  // namespace actformer::reports
