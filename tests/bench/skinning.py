@@ -104,7 +104,7 @@ def check(folder):
     worst = 0
     for at in range(0, len(turns), BATCH):
         for key, wanted in zip(("joints", "vertices"), body.posed(turns[at : at + BATCH], translation[at : at + BATCH])):
-            worst = max(worst, np.abs(made[key][at : at + BATCH] - wanted).max())
+            worst = np.maximum(worst, np.abs(made[key][at : at + BATCH] - wanted).max())
     print(worst)
 
 

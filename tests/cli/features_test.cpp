@@ -10,6 +10,7 @@
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/motions_file.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/larger.hpp"
 #include "tests/support/plain_recogniser.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/unit_limbs.hpp"
@@ -36,7 +37,7 @@ double relative_error(const std::vector<float>& a, const std::vector<float>& b) 
     EXPECT_EQ(a.size(), b.size());
     double worst = 0, scale = 0;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-        worst = std::max(worst, std::abs(double{a[i]} - b[i]));
+        worst = larger(worst, std::abs(double{a[i]} - b[i]));
         scale = std::max(scale, std::abs(double{b[i]}));
     }
     return worst / scale;

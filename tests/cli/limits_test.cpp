@@ -80,10 +80,15 @@ TEST_F(Limits, NestingIsBounded) {
 
 TEST_F(Limits, NamesDoNotCommandTheTerminal) {
     const auto name = "\"$(printf 'a\\033]0;title\\007\\nactformer: done\\342\\200\\256')\"";
-    for (const std::string command :
-         {"inspect ", "features --recogniser none.h5 -o x.h5 ", "render -o x.png ",
-          "synth ntu --clips 0 -o /none/", "sweep -o out ", ""}) {
+    const auto file = at("file");  // below which nothing can be made
+    write_file(file, "");
+    for (const auto& command :
+         std::vector<std::string>{"inspect ", "features -o x.h5 motions.h5 --recogniser ", "render -o x.png ",
+                                  "synth ntu --clips 1 -o " + file + "/", "sweep -o out ", ""}) {
         const auto result = run_actformer(command + name);
+        EXPECT_NE(result.output.find("a\\x1B]0;title\\x07\\x0Aactformer: done\\xE2\\x80\\xAE"),
+                  std::string::npos)
+            << command << result.output;
         EXPECT_EQ(result.exit, 1) << result.output;
         EXPECT_EQ(lines_in(result.output), 1) << result.output;
         for (const auto* raw : {"\033", "\007", "\342\200\256"})

@@ -288,6 +288,7 @@ TEST_F(ReportPage, WorksInABrowser) {
     const auto result = in_browser("r.html");
     if (result.exit == 77) GTEST_SKIP() << result.output;
     EXPECT_EQ(result.exit, 0) << result.output;
+    EXPECT_EQ(result.output.find("skip:"), std::string::npos) << result.output;
 }
 
 TEST_F(ReportPage, OfAComparisonShowsBothSidesBesideRealMotions) {
@@ -306,4 +307,5 @@ TEST_F(ReportPage, OfAComparisonShowsBothSidesBesideRealMotions) {
     const auto result = in_browser("compared/report.html", " --comparison");
     if (result.exit == 77) GTEST_SKIP() << result.output;
     EXPECT_EQ(result.exit, 0) << result.output;
+    EXPECT_EQ(result.output.find("skip:"), std::string::npos) << result.output;
 }

@@ -19,6 +19,7 @@
 #include "ingest/dataset/motions_file.hpp"
 #include "tests/support/command.hpp"
 #include "tests/support/made_dataset.hpp"
+#include "tests/support/odd_split.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/unit_limbs.hpp"
 
@@ -423,13 +424,13 @@ TEST_F(Score, RefusesOptionsWithoutEffect) {
     motions("m.h5", 4, 3);
     features("r.h5", labels_of({3, 3, 3}));
     const auto made = one_person() + "--generated " + at("m.h5");
+    const auto name_of = [](const std::string& option) { return option.substr(0, option.find(' ')); };
     for (const char* option : {"--repeats 3", "--per-class 5", "--generate-on cpu"})
-        expect_refused(made + " " + option,
-                       {option[2] == 'g' ? "--generate-on" : "--", "--generator", "leave it out"});
+        expect_refused(made + " " + option, {name_of(option) + ": is for --generator", "leave it out"});
     for (const char* option :
          {"--window 30", "--frames 9", "--split all", "--repeats 2", "--device cpu", "--batch 7"})
         expect_refused("--real-features " + at("r.h5") + " --generated-features " + at("r.h5") + " " + option,
-                       {"features are scored as they are; leave it out"});
+                       {name_of(option) + ": features are scored as they are; leave it out"});
     for (const char* option : {"--kid", "--fid-infinity"})
         expect_refused("--single-recogniser " + at("one.h5") + " --real " + (datasets() / "ntu-2p").string() +
                            " --generated " + at("m.h5") + " " + option,
@@ -473,6 +474,16 @@ TEST_F(Score, LeavesWhatOthersPutAtItsWorkingFolder) {
         write_file(dir / "own.json.work" / own, "left");
     EXPECT_EQ(score(arguments + " -o " + at("own.json")).exit, 0);
     EXPECT_FALSE(fs::exists(dir / "own.json.work"));
+}
+
+TEST_F(Score, TakesASplitWhoseNameIsNoText) {
+    copy_with_odd_split(datasets() / "ntu-1p", dir / "odd");
+    motions("m.h5", 4, 3);
+    const auto result = score("--recogniser " + at("one.h5") + " --real " + at("odd") + " --split '" +
+                              odd_split + "' --generated " + at("m.h5") + " -o " + at("s.json"));
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_EQ(nlohmann::json::parse(read_file(dir / "s.json"))["provenance"]["real"]["split"],
+              odd_split_in_json);
 }
 
 TEST_F(Score, TellsHowFastRootsMove) {

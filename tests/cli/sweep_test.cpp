@@ -349,7 +349,9 @@ TEST_F(Sweep, EndsInOneLineWhereItsResultsCannotBeWritten) {
         const auto result = run_command("timeout 60 " + command("--jobs " + std::string(jobs)));
         EXPECT_EQ(result.exit, 1) << result.output;
         EXPECT_NE(result.output.find("results.json"), std::string::npos) << result.output;
-        EXPECT_NE(result.output.rfind("actformer: "), std::string::npos) << result.output;
+        const auto last = result.output.rfind("actformer: ");
+        ASSERT_NE(last, std::string::npos) << result.output;
+        EXPECT_EQ(lines_in(result.output.substr(last)), 1) << result.output;
         fs::remove_all(dir / "out");
     }
 }
@@ -462,6 +464,14 @@ TEST_F(Sweep, AKillBeforeSlurmsNumberIsKeptSubmitsNothingTwice) {
     EXPECT_EQ(lines_of("bin/calls").size(), 8U);
     EXPECT_NE(read_file(dir / "bin/calls").find("afterok:3"), std::string::npos)
         << "of the job it was killed at";
+}
+
+TEST_F(Sweep, CommentsInSlurmThatAreNoTextAreKeptPrintable) {
+    sweep_file(two_rows);
+    slurm_stand_in(":", "printf '7\\377|R|None|" + at("out/jobs") + "/\\377\\n'");
+    const auto result = with_slurm("--slurm");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_EQ(nlohmann::json::parse(read_file(dir / "out/slurm.json"))["\\xFF"], "7\\xFF");
 }
 
 TEST_F(Sweep, ASignalWhileAJobIsSubmittedWaitsForItsNumber) {

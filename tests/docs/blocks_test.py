@@ -9,6 +9,8 @@ Python, all in one folder, so that a page finds what those before it made; where
     <!-- before it: COMMAND -->            run before the block, for what a reader has already
     <!-- it says: TEXT -->                 it prints that, which the page does not show
     <!-- file: NAME -->                    the block is no command but a file
+
+Other blocks without a language, of ```text or of ```bibtex are only shown. One of another language fails, for nobody would notice that it never ran.
 """
 import argparse
 import os
@@ -20,6 +22,10 @@ import tempfile
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.M | re.S)
 COMMENT = re.compile(r"<!--\s*(not run|in tests|before it|it says|file):\s*(.*?)-->", re.S)
+
+FENCES = re.compile(r"^ *```", re.M)
+SHOWN = ("", "text", "bibtex")
+SHOWN_IN = {"docs/adding-a-method.md": ("cpp", "yaml")}  # method_test.py takes that page's method
 
 
 class Block:
@@ -50,6 +56,8 @@ class Block:
 def blocks_of(page, text):
     """The blocks that run, each with what it should print."""
     blocks, begin = [], 0
+    if len(FENCES.findall(text)) != 2 * len(FENCE.findall(text)):
+        raise SystemExit(f"{page}: fences that are none of this test's: ```LANGUAGE or ``` alone, at the begin of a line")
     for match in FENCE.finditer(text):
         block = Block(page, match, begin)
         begin = match.end()
@@ -59,6 +67,8 @@ def blocks_of(page, text):
             blocks[-1].expected = block.text
         elif block.language in ("sh", "python"):
             blocks.append(block)
+        elif block.language not in (*SHOWN, *SHOWN_IN.get(page, ())) and "not run" not in block.notes:
+            raise SystemExit(f"{page}:{block.line}: nothing runs a block of {block.language!r}; is it ```sh?")
     return blocks
 
 

@@ -4,7 +4,8 @@
 #   pack     here, on a Debian: the packages that it lacks, into $PACKAGES
 #   unpack   there, as all that follows: the packages into $WORK/prefix, nothing outside it
 #   build    the program and its kernels' tests against PyTorch's libtorch, into $BUILD
-#   check    the kernels' tests, features, trainings, PyTorch beside them: $OUT/figures.json
+#   check    the kernels' tests, features, trainings, PyTorch beside them, CUDA's tests: $OUT/figures.json
+#   cuda     of these CUDA's tests alone, built before they run
 #   all      unpack, build and check; exit code 1 where a step of them failed
 #   list     the steps of check, without running them
 #
@@ -84,6 +85,16 @@ build() {
     ninja -C "$BUILD" -k 0 -j "$(nproc)" actformer test_kernels >"$logs/ninja.log" 2>&1 || { grep -E -m 30 'error|undefined' "$logs/ninja.log" >&2; return 1; }
     [ -x "$BUILD/actformer-train" ] || { echo "check.sh: CMake found no libtorch; see $logs/configure.log" >&2; return 1; }
     say "built: $BUILD/actformer"
+}
+
+# The model's tests that need CUDA. Without it they skip themselves, and here that is a failure: nothing would have been tested.
+cuda() {
+    mkdir -p "$logs"
+    [ "$own_build" = no ] || ninja -C "$BUILD" -j "$(nproc)" test_model >"$logs/ninja-cuda.log" 2>&1 ||
+        { grep -E -m 30 'error|undefined' "$logs/ninja-cuda.log" >&2; return 1; }
+    "$BUILD/test_model" --gtest_filter='CudaGraph.*:WeightStore.*' --gtest_output="json:$logs/cuda.json" | tee "$logs/cuda.log"
+    if grep -F '[  SKIPPED ]' "$logs/cuda.log" >&2; then echo "check.sh: tests of CUDA skipped themselves" >&2; return 1; fi
+    grep -qE '\[  PASSED  \] [1-9]' "$logs/cuda.log" || { echo "check.sh: no test of CUDA ran" >&2; return 1; }
 }
 
 # Runs a command for so many seconds at most. Exit code `fine` is a success too. Of a crash, a debugger that is there says where it was.
@@ -215,6 +226,11 @@ check() {
     fi
     if ((${#kinds[@]})); then check_program; fi
     check_pytorch
+    if [ "$device" = cpu ]; then
+        say "no CUDA: the tests that need it are left out"
+    else
+        step cuda 600 "$here/check.sh" cuda
+    fi
     [ "$listing" = no ] || return 0
     say "$OUT/figures.json"
     awk -F '\t' '$2 { failed = 1 } END { exit failed }' "$logs/steps.tsv"
@@ -222,7 +238,7 @@ check() {
 
 listing=no
 case "${1:-}" in
-    pack | unpack | build) "$1" ;;
+    pack | unpack | build | cuda) "$1" ;;
     check | all)
         rm -rf "$logs"
         mkdir -p "$logs" "$OUT"
@@ -239,7 +255,7 @@ case "${1:-}" in
         check
         ;;
     *)
-        sed -nE '2,13s/^# ?//p' "$0" >&2
+        sed -nE '2,14s/^# ?//p' "$0" >&2
         exit 2
         ;;
 esac

@@ -110,6 +110,7 @@ def write(logs, run, device):
         'machine': machine(logs, device),
         'steps': steps(logs),
         'kernels': each('kernels-', '.json', kernels),
+        'cuda': read_with(kernels, logs / 'cuda.json'),
         'features': each('features-', '.out', features),
         'training': {log.parent.name: read_with(training, log) for log in sorted(run.glob('*/log.jsonl'))},
         'bench_train': each('bench-train-', '.out', bench_train),

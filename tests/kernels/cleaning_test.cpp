@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/larger.hpp"
+
 using namespace actformer;
 using kernels::ClipBatch;
 
@@ -132,9 +134,10 @@ std::vector<float> flat(const kernels::LimbRows& rows, std::size_t numbers) {
 template <typename A, typename B>
 double largest_difference(const A& a, const B& b) {
     EXPECT_EQ(a.size(), b.size());
+    EXPECT_FALSE(b.empty());
     double largest = 0;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+        largest = test::larger(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
     return largest;
 }
 

@@ -48,6 +48,6 @@ for t in range(frames):
         for j in range(len(names)):
             armature, bone = bones[name_in_file(p, j)]
             x, y, z = armature.matrix_world @ bone.head  # Blender's z is up
-            furthest = max(furthest, float(numpy.linalg.norm(joints[t, p, j] - (x, z, -y))))
+            furthest = numpy.maximum(furthest, numpy.linalg.norm(joints[t, p, j] - (x, z, -y)))  # NaN where any is
             compared += 1
 print(f"compared {compared} joints, furthest {furthest:.9f} m")

@@ -84,6 +84,11 @@ inline void expect_refused(const CommandResult& result, const std::vector<std::s
     for (const auto& word : words) EXPECT_NE(last.find(word), std::string::npos) << word << ": " << last;
 }
 
+/// Whether there is a program of this name.
+inline bool has_program(const std::string& name) {
+    return run_command("command -v " + name).exit == 0;
+}
+
 /// Whether Debian's own Python has these modules, as in "h5py, torch". They are looked for and not loaded: torch takes seconds.
 inline bool python_has(const std::string& modules) {
     return run_command(

@@ -33,9 +33,11 @@ struct FlipOutcome {
 };
 
 /// Flips a byte of `file` at random, runs `read` and compares with what it makes of the whole file; so `times` times. An error has to
-/// hold one of `named`. The file is whole again at the end.
+/// hold one of `named`. With `must_read` a file of nothing but other bytes may not be without effect: `read` reads it at all. The file is
+/// whole again at the end.
 inline void flip_and_read(const std::string& what, const std::filesystem::path& file, std::size_t times,
-                          const std::vector<std::string>& named, const std::function<FlipOutcome()>& read) {
+                          const std::vector<std::string>& named, const std::function<FlipOutcome()>& read,
+                          bool must_read = false) {
     const auto whole = read_file(file);
     const auto wanted = read();
     ASSERT_EQ(wanted.error, "") << what;
@@ -61,6 +63,14 @@ inline void flip_and_read(const std::string& what, const std::filesystem::path& 
             ADD_FAILURE() << what << ": byte " << at << " of " << bytes.size() << " is now "
                           << int{static_cast<unsigned char>(bytes[at])} << ", and nobody noticed";
         }
+    }
+    if (must_read) {
+        auto bytes = whole;
+        for (auto& byte : bytes) byte = static_cast<char>(byte ^ 0xFF);
+        write_file(file, bytes);
+        const auto got = read();
+        EXPECT_TRUE(!got.error.empty() || got.anew || got.output != wanted.output)
+            << what << ": every byte is another, and nobody noticed";
     }
     write_file(file, whole);
     fmt::print("{:<22} {} flips: {} told, {} made anew, {} without effect, {} silent\n", what, times,

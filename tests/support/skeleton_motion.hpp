@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "ingest/export/skeleton_motion.hpp"
+#include "tests/support/larger.hpp"
 
 namespace actformer::test {
 
@@ -107,9 +108,9 @@ inline ingest::SkeletonMotion made_motion(const ingest::Topology& tree, std::uin
 /// The largest distance between joints of the same place.
 inline double furthest(const std::vector<Point>& a, const std::vector<Point>& b) {
     EXPECT_EQ(a.size(), b.size());
+    EXPECT_FALSE(b.empty());
     double most = 0;
-    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-        most = std::max(most, distance(a[i], b[i]));
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) most = larger(most, distance(a[i], b[i]));
     return most;
 }
 

@@ -20,7 +20,12 @@ struct AttributesOfH5py : testing::Test {
     TempDir dir;
     std::filesystem::path path = dir / "file.h5";
 
-    /// Runs `script` with `f` open to write; false where there is no h5py.
+    void SetUp() override {
+        static const bool has_h5py = python_has("h5py");
+        if (!has_h5py) GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
+    }
+
+    /// Runs `script` with `f` open to write; whether it could.
     bool write(const std::string& script, const std::string& how = "") const {
         write_file(dir / "make.py", "import h5py, numpy\nwith h5py.File('" + path.string() + "', 'w'" + how +
                                         ") as f:\n" + script);
@@ -61,7 +66,7 @@ TEST_F(AttributesOfH5py, AreReadAsTheyUsuallyAre) {
     f['a'].attrs['fps'] = [1, 2]
 )";
     for (const std::string how : {"", ", libver='latest'", ", track_order=True"}) {
-        if (!write(script, how)) GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
+        ASSERT_TRUE(write(script, how));
         for (const auto& file : {hdf5::Reader(path), hdf5::Reader(read_file(path), "in memory")}) {
             EXPECT_EQ(file.attribute_texts("representation"), Texts{"xyz"});
             EXPECT_EQ(file.attribute_texts("names"), (Texts{"hips", "", "gen\xC3\xB6u"}));
@@ -76,7 +81,7 @@ TEST_F(AttributesOfH5py, AreReadAsTheyUsuallyAre) {
 
 TEST_F(AttributesOfH5py, OfWhichThereAreManyAreReadOrTheRemedyIsTold) {
     const std::string script = "    for i in range(200): f.attrs[f'text {i}'] = f'number {i}'\n";
-    if (!write(script)) GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
+    ASSERT_TRUE(write(script));
     for (const int i : {0, 7, 100, 199})
         EXPECT_EQ(hdf5::Reader(path).attribute_texts(fmt::format("text {}", i)),
                   Texts{fmt::format("number {}", i)});
@@ -87,8 +92,7 @@ TEST_F(AttributesOfH5py, OfWhichThereAreManyAreReadOrTheRemedyIsTold) {
 }
 
 TEST_F(AttributesOfH5py, ThatAreDamagedAreRefused) {
-    if (!write("    f.attrs['names'] = ['" + std::string(1000, 'x') + "', 'y']\n"))
-        GTEST_SKIP() << "no h5py in /usr/bin/python3 (Debian: python3-h5py)";
+    ASSERT_TRUE(write("    f.attrs['names'] = ['" + std::string(1000, 'x') + "', 'y']\n"));
     const auto whole = read_file(path);
     const std::uint32_t length = 1000;
     for (const std::uint32_t other : {0x70000000U, 4000000U}) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 
 #include "base/error.hpp"
 #include "ingest/dataset/known_topologies.hpp"
@@ -73,8 +74,9 @@ double length(const float* x) {
 TEST(CommonJoints, AreTheSameOfEverySkeleton) {
     const auto expected =
         CommonJoints(body(Representation::xyz, common15()), "").of(positions("common15", common15()));
+    const std::set<std::string> without{"coco17", "h36m17"};  // whose joints are others
     for (const auto& [name, topology] : known_topologies()) {
-        if (!names.contains(std::string(name))) continue;
+        if (without.contains(std::string(name))) continue;
         const CommonJoints common(body(Representation::xyz, topology), "");
         expect_near(common.of(positions(std::string(name), topology)), expected, 0);
     }

@@ -7,6 +7,7 @@
 
 #include "ingest/export/rotations.hpp"
 #include "ingest/formats/bvh/bvh_file.hpp"
+#include "tests/support/larger.hpp"
 #include "tests/support/skeleton_motion.hpp"
 
 namespace actformer::ingest {
@@ -64,11 +65,12 @@ std::vector<Point> places(const Recording& file, const Topology& tree) {
 
 /// Joints of both, each relative to its own first root: the reader takes that away.
 double furthest_from_first_root(std::vector<Point> a, const std::vector<Point>& b) {
-    const Point from = a[0];
+    EXPECT_EQ(a.size(), b.size());
+    const Point from = a.at(0);
     double most = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
         for (std::size_t d = 0; d < 3; ++d) a[i][d] += b[0][d] - from[d];
-        most = std::max(most, distance(a[i], b[i]));
+        most = larger(most, distance(a[i], b[i]));
     }
     return most;
 }

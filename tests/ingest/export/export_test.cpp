@@ -3,15 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
 #include "base/error.hpp"
+#include "base/numpy/npz.hpp"
 #include "ingest/dataset/described_motions.hpp"
 #include "ingest/export/export_format.hpp"
 #include "ingest/export/rest_pose.hpp"
 #include "ingest/export/rotations.hpp"
 #include "ingest/export/skeletons.hpp"
+#include "tests/support/glb.hpp"
 #include "tests/support/made_dataset.hpp"
 #include "tests/support/skeleton_motion.hpp"
 
@@ -225,9 +229,31 @@ TEST_F(Exported, LimbsOfNoLengthStayWithTheirParent) {
     writer.finish();
     for (const char* format : {"bvh", "glb", "npz"}) {
         const auto out = dir / (std::string("still.") + format);
-        EXPECT_EQ(refusal(request(dir / "still.h5", out)), "taken") << format;
-        EXPECT_EQ(read_file(out).find("nan"), std::string::npos) << format;
+        ASSERT_EQ(refusal(request(dir / "still.h5", out)), "taken") << format;
     }
+    const auto all_finite = [](const auto& numbers) {
+        return !numbers.empty() && std::ranges::all_of(numbers, [](double v) { return std::isfinite(v); });
+    };
+    const auto bvh = read_file(dir / "still.bvh");
+    const auto frames = bvh.find("MOTION");
+    ASSERT_NE(frames, std::string::npos) << bvh;
+    for (const char* no_number : {"nan", "inf"})
+        EXPECT_EQ(bvh.find(no_number, frames), std::string::npos) << bvh.substr(frames);
+    const auto glb = test::parsed(read_file(dir / "still.glb"));
+    std::size_t arrays = 0;
+    for (std::size_t i = 0; i < glb.json["accessors"].size(); ++i)
+        if (glb.json["accessors"][i]["componentType"] == 5126) {
+            EXPECT_TRUE(all_finite(glb.floats(i))) << "accessor " << i;
+            ++arrays;
+        }
+    EXPECT_GT(arrays, 2U);  // times, rotations, and the root's places
+    arrays = 0;
+    read_npz(read_file(dir / "still.npz"), {}, [&](const std::string& name, const NumpyArray& array) {
+        if (!array.numbers()) return;
+        EXPECT_TRUE(all_finite(array.all_numbers())) << name;
+        ++arrays;
+    });
+    EXPECT_EQ(arrays, 4U);  // the clip, labels, parents and fps
     const auto clip = open_clips(dir / "still.h5")->read(0);
     const auto skeletons = skeletons_of(clip, t_pose(ntu25()));
     EXPECT_LT(furthest(joints_of(skeletons[0]), clip_joints(clip)), 1e-9);

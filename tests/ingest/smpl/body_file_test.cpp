@@ -103,7 +103,8 @@ TEST_P(SmplToyOnDevice, JointsAndVerticesAreThoseOfTheFormulas) {
                                   toy(GetParam()) + " " + (folder / "posed.npz").string());
     ASSERT_EQ(said.exit, 0) << said.output;
     double joints = 1, vertices = 1;
-    std::istringstream(said.output) >> joints >> vertices;
+    std::istringstream numbers(said.output);
+    ASSERT_TRUE(numbers >> joints >> vertices) << said.output;
     EXPECT_LT(joints, 1e-6);
     EXPECT_LT(vertices, 1e-6);
 }

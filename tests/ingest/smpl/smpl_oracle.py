@@ -73,5 +73,5 @@ worst = [0.0, 0.0]
 for t in range(len(made["translation"])):
     wanted = posed(model, made["betas"], made["rotation_vectors"][t], made["translation"][t])
     for i, key in enumerate(("joints", "vertices")):
-        worst[i] = max(worst[i], np.abs(made[key][t] - wanted[i]).max())
+        worst[i] = np.maximum(worst[i], np.abs(made[key][t] - wanted[i]).max())
 print(*worst)

@@ -10,12 +10,13 @@
 #include "ingest/synth/programmes/exercises.hpp"
 #include "ingest/synth/programmes/ntu.hpp"
 #include "ingest/synth/rotation_vector.hpp"
+#include "tests/support/larger.hpp"
 
 namespace actformer::ingest::synth {
 namespace {
 
 double apart(const Rotation& a, const Rotation& b) {
-    return std::max({length(a.x - b.x), length(a.y - b.y), length(a.z - b.z)});
+    return test::larger(test::larger(length(a.x - b.x), length(a.y - b.y)), length(a.z - b.z));
 }
 
 double angle(const Vec& a, const Vec& b) {

@@ -184,6 +184,7 @@ TEST_F(ScoreGenerator, RefusesWhatDoesNotFit) {
     refused(generator("--samples 9"), {"--samples", "--protocol actor"});
     refused(generator("--frames 17"), {"run", "17", "16"});
     refused(generator("--generate-on nonsense"), {"nonsense"});
+    refused(generator("--generate-on meta"), {"libtorch: "});  // a device of libtorch's that has no numbers
     refused("--generator " + at("run") + " --generated " + at("m.h5"), {"either"});
     const auto graph = eval::recogniser_graph(ingest::Dataset(toy()).header().topology.parents);
     eval::write_stgcn_weights(dir / "w.h5", eval::random_stgcn_weights(6, 3, graph, 0.125, 5));

@@ -11,6 +11,7 @@
 #include "model/generators/generator_file.hpp"
 #include "model/generators/train_generator.hpp"
 #include "tests/support/checkpoints.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/toy_dataset.hpp"
@@ -105,6 +106,20 @@ TEST_P(EveryMethod, RefusesWeightsOfOtherSettings) {
     EXPECT_THROW(file.maker("cpu"), Error);
 }
 
+/// Before the network is made, which would be as large as the configuration says.
+TEST_P(EveryMethod, MakesNoNetworkOfAnotherConfiguration) {
+    auto wide = config();
+    for (const auto* key : {"width", "hidden"})
+        if (wide.has(key)) wide.override_with(std::string(key) + "=256");
+    const auto subjects = ingest::subjects_of(ingest::Dataset(toy()));
+    const std::vector<float> numbers{1};
+    save_generator(dir / "w.h5", {{"input.weight", {1}, numbers}, {"up0.weight", {1}, numbers}}, wide,
+                   subjects, {});
+    const auto fault = error_of([&] { load_generator(dir / "w.h5").maker("cpu"); });
+    EXPECT_TRUE(fault.starts_with((dir / "w.h5").string() + ": ")) << fault;
+    EXPECT_TRUE(fault.ends_with(": damaged, or of another configuration")) << fault;
+}
+
 INSTANTIATE_TEST_SUITE_P(Generators, EveryMethod, testing::ValuesIn(names()),
                          [](const auto& one) { return one.param; });
 
@@ -117,6 +132,17 @@ TEST(Methods, AreCalledByName) {
     } catch (const Error& e) {
         EXPECT_STREQ(e.what(), "c.yaml: there is no method 'actfromer'; did you mean 'actformer'?");
     }
+}
+
+TEST(Methods, MakeMotionsOfFewPersons) {
+    const TempDir dir;
+    auto subjects = ingest::subjects_of(ingest::Dataset(toy()));
+    subjects.persons = 17;
+    subjects.bone_length.clear();
+    save_generator(dir / "w.h5", {{"input.weight", {1}, std::vector<float>{1}}},
+                   generator_config(methods().front()), subjects, {});
+    EXPECT_EQ(error_of([&] { load_generator(dir / "w.h5"); }),
+              (dir / "w.h5").string() + ": motions of 17 persons, and generators make up to 16: damaged");
 }
 
 TEST(Methods, AreNoRecognisers) {

@@ -23,6 +23,7 @@
 #include "model/train/checkpoint.hpp"
 #include "tests/support/checkpoints.hpp"
 #include "tests/support/flips.hpp"
+#include "tests/support/killed.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/run_log.hpp"
 #include "tests/support/toy_dataset.hpp"
@@ -65,19 +66,21 @@ struct TrainGenerator : testing::Test {
 
 TEST_F(TrainGenerator, GoesOnAfterAKillToTheSameBits) {
     const auto more = "average=0.9 beta1=0.5 score_every=2 score_per_class=2 " + recogniser();
-    const auto whole = train("whole", more);
-    ASSERT_EQ(whole.exit, 0) << whole.output;
+    const auto whole = watched_run(line("whole", more), dir / "whole");
+    ASSERT_EQ(whole.result.exit, 0) << whole.result.output;
     const auto last = newest(dir / "whole");
+    ASSERT_EQ(last, "checkpoint-00008.h5");
+    // From when the first checkpoint is kept until the last is about to be written.
+    const auto first_call = whole.call("checkpoint-00002"), last_call = whole.call(last);
+    ASSERT_TRUE(0 < first_call && first_call < last_call);
     std::mt19937 random(std::random_device{}());
     for (int kill = 0; kill < 2; ++kill) {
-        {
-            const Child child(line("killed", more));
-            while (!fs::exists(dir / "killed/log.jsonl"))
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            std::this_thread::sleep_for(std::chrono::milliseconds(random() % 400));
-        }
+        const auto call = first_call + random() % (last_call - first_call);
+        SCOPED_TRACE(fmt::format("killed before {}", whole.calls[call - 1]));
+        kill_before(call, line("killed", more), dir / "killed");
         const auto again = train("killed", more);
         ASSERT_EQ(again.exit, 0) << again.output;
+        EXPECT_NE(again.output.find("going on after "), std::string::npos) << again.output;
         EXPECT_EQ(newest(dir / "killed"), last);
         for (const std::string file : {"weights-last.h5", "weights-average.h5", "weights-best.h5"})
             EXPECT_EQ(read_file(dir / ("whole/" + file)), read_file(dir / ("killed/" + file))) << file;
@@ -117,13 +120,15 @@ TEST_F(TrainGenerator, ASignalKeepsTheRunningStep) {
 
 TEST_F(TrainGenerator, FlippedBytesInWeightsAndCheckpointsAreNoticed) {
     ASSERT_EQ(train("run", "epochs=2").exit, 0);
-    flip_and_read("generator's weights", dir / "run/weights-last.h5", flips_to_make(2), {"weights-last.h5"},
-                  [&] {
-                      return outcome_of("",
-                                        "generate --generator " + at("run/weights-last.h5") +
-                                            " --per-class 1 --frames 8 -o " + at("m.h5"),
-                                        dir / "m.h5");
-                  });
+    flip_and_read(
+        "generator's weights", dir / "run/weights-last.h5", flips_to_make(2), {"weights-last.h5"},
+        [&] {
+            return outcome_of("",
+                              "generate --generator " + at("run/weights-last.h5") +
+                                  " --per-class 1 --frames 8 -o " + at("m.h5"),
+                              dir / "m.h5");
+        },
+        true);
     const auto checkpoint = dir / "run" / newest(dir / "run");
     flip_and_read("checkpoint", checkpoint, flips_to_make(2), {"checkpoint-"}, [&] {
         auto outcome = outcome_of("", line("run", "epochs=2"), dir / "run/weights-last.h5");
@@ -317,6 +322,9 @@ TEST_F(TrainGenerator, KeepsARunToItsSettingsItsDataAndOneTraining) {
 TEST_F(TrainGenerator, RefusesACheckpointWithoutTheProgressThatItNeeds) {
     ASSERT_EQ(train("run", "epochs=1").exit, 0);
     auto checkpoint = *model::newest_checkpoint(dir / "run", "actformer", [](const std::string&) {});
+    checkpoint.state["sums"] = {1, 2};
+    model::save_checkpoint(dir / "run", checkpoint);
+    expect_refused(train("run", "epochs=2"), {newest(dir / "run"), "2 sums of losses", "another -o"});
     checkpoint.state.erase("sums");
     model::save_checkpoint(dir / "run", checkpoint);
     expect_refused(train("run", "epochs=2"),

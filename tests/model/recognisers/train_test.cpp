@@ -5,14 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "base/hdf5/reader.hpp"
 #include "tests/support/checkpoints.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/killed.hpp"
 #include "tests/support/run_log.hpp"
 #include "tests/support/temp_dir.hpp"
 #include "tests/support/toy_dataset.hpp"
@@ -34,13 +33,6 @@ struct TrainRecogniser : testing::Test {
     }
     CommandResult train(const std::string& run, const std::string& more = "") const {
         return run_actformer(line(run, more));
-    }
-
-    /// Starts a training and kills it once `file` is there.
-    void train_and_kill(const std::string& run, const std::string& file) const {
-        const Child child(line(run, "threads=2"));
-        for (int i = 0; i < 6000 && !fs::exists(dir / (run + "/" + file)); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
 
     TempDir dir;
@@ -98,15 +90,19 @@ TEST_F(TrainRecogniser, TellsToyClassesApart) {
 }
 
 TEST_F(TrainRecogniser, GoesOnAfterAKillToTheSameBits) {
-    const auto whole = train("whole", "threads=2");
-    ASSERT_EQ(whole.exit, 0) << whole.output;
-    EXPECT_NE(whole.output.find("taken for class ..)\n  1 "), std::string::npos)
-        << "a table of confusions, a line a class: " << whole.output;
-    for (const std::string moment : {"log.jsonl", "weights-last.h5", "checkpoint-00001.h5",
+    const auto whole = watched_run(line("whole", "threads=2"), dir / "whole");
+    ASSERT_EQ(whole.result.exit, 0) << whole.result.output;
+    EXPECT_NE(whole.result.output.find("taken for class ..)\n  1 "), std::string::npos)
+        << "a table of confusions, a line a class: " << whole.result.output;
+    for (const std::string moment : {"weights-last.h5", "checkpoint-00001.h5", "log.jsonl",
                                      "checkpoint-00004.h5", "checkpoint-00006.h5"}) {
-        train_and_kill("killed", moment);
+        // Written to, and neither closed nor renamed.
+        kill_before(whole.call("write " + (dir / "whole" / moment).string()) + 1, line("killed", "threads=2"),
+                    dir / "killed");
+        const bool kept = moment != "weights-last.h5" && moment != "checkpoint-00001.h5";
         const auto again = train("killed", "threads=2");
         ASSERT_EQ(again.exit, 0) << again.output;
+        EXPECT_TRUE(!kept || again.output.find("going on after ") != std::string::npos) << again.output;
         for (const std::string file : {"weights-last.h5", "weights-best.h5"})
             EXPECT_EQ(read_file(dir / ("whole/" + file)), read_file(dir / ("killed/" + file)))
                 << moment << ", " << file;

@@ -479,20 +479,31 @@ TEST_F(Report, LatexHasAsManyColumnsInEveryLine) {
     auto measured = read();
     EXPECT_NE(to_latex(fill_tables(measured)).find(". Intervals of 95 \\% over 2 repeats}"),
               std::string::npos);
-    std::istringstream latex(to_latex(fill_tables(measured)));
+    const auto tables = fill_tables(measured);
+    std::size_t rows = 0, lines = 0, full = 0;
+    for (const auto& table : tables) {
+        std::size_t figures = 0;
+        for (const auto& column : table.paper->columns) figures += column.metrics.size();
+        if (figures == 3) rows += 1 + table.rows.size();  // the first tells what is measured
+    }
+    std::istringstream latex(to_latex(tables));
     bool in_third = false;
     for (std::string line; std::getline(latex, line);) {
         in_third = in_third || line == "\\begin{tabular}{lrrr}";
         if (in_third && line.starts_with("full &")) {
+            ++full;
             EXPECT_EQ(line,
                       "full & \\textbf{60.00}{\\scriptsize\\,$\\pm$1.27} & "
                       "\\textbf{5.00}{\\scriptsize\\,$\\pm$1.27} & -- \\\\");
         }
         if (in_third && line.ends_with("\\\\") && line.find("multicolumn") == std::string::npos) {
             EXPECT_EQ(std::count(line.begin(), line.end(), '&'), 3) << line;
+            ++lines;
         }
         if (line == "\\end{tabular}") in_third = false;
     }
+    EXPECT_GE(full, 1U);
+    EXPECT_EQ(lines, rows);
 }
 
 TEST(Packed, IsBase64OfLittleEndianNumbers) {
@@ -573,6 +584,12 @@ TEST(Projections, FarPointsAndSamplesThatAreAllTheSameStayFinite) {
     EXPECT_NEAR(std::abs(Projection(real).of(far).xy[0]), 8 * 4096, 8);
     eval::Samples other{3, 1, {0, 0, 0}, {}, {0}};
     EXPECT_NE(error_of([&] { Projection(real).of(other); }).find("3 dimensions"), std::string::npos);
+}
+
+TEST(Projections, AreNotOfVeryManyDimensions) {
+    const eval::Samples wide{4097, 1, std::vector<double>(std::size_t{2} * 4097), {}, {0, 0}};
+    EXPECT_EQ(error_of([&] { Projection{wide}; }),
+              "features of 4097 dimensions, and a plane through up to 4096 is drawn");
 }
 
 TEST(Curves, JoinLinesOfAnEpochAndTellOfBrokenOnes) {

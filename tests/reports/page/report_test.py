@@ -374,6 +374,7 @@ def check_console(browser):
 
 def check_requests(browser):
     """no request but for the file itself"""
+    asked = set()
     for entry in browser.log("performance"):
         message = json.loads(entry["message"])["message"]
         if message["method"] != "Network.requestWillBeSent":
@@ -382,6 +383,8 @@ def check_requests(browser):
         if asker.split("#")[0] != browser.page:
             continue  # the browser's own empty page, before the report was opened
         expect(url.startswith("data:") or url.split("#")[0] == browser.page, f"the page asks for {url}")
+        asked.add(url.split("#")[0])
+    expect(browser.page in asked, "the driver's log has no request for the file itself: it would have had no other either")
 
 
 CHECKS = [check_hostile_names, check_tables, check_tips, check_play, check_keys, check_drag, check_bands, check_panels, check_matrix,

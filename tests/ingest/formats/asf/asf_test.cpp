@@ -12,6 +12,7 @@
 #include "ingest/formats/asf/amc_file.hpp"
 #include "ingest/formats/skeletal/pose.hpp"
 #include "tests/support/command.hpp"
+#include "tests/support/larger.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/replaced.hpp"
 #include "tests/support/temp_dir.hpp"
@@ -317,7 +318,7 @@ TEST(AmcFile, RealFilesComeOutAsPlainDoublePrecisionHasThem) {
                 if (recording.joints[j].pivot) continue;
                 const auto& place = want.at(recording.joints[j].name);
                 for (std::size_t d = 0; d < 3; ++d)
-                    worst = std::max(worst, std::abs(got[j][d] + recording.origin[d] - place[d]));
+                    worst = test::larger(worst, std::abs(got[j][d] + recording.origin[d] - place[d]));
             }
         }
         ++frame;
@@ -367,7 +368,7 @@ TEST(AmcFile, RootsAreThoseOfTheSameTrialInAmassLayout) {
             for (std::size_t d = 0; d < 3; ++d) root[d] = unit * (root[d] + recording.origin[d]);
             const std::array<double, 3> upright{root[0], -root[2], root[1]};
             for (std::size_t d = 0; d < 3; ++d)
-                worst = std::max(worst, std::abs(upright[d] - path[3 * t + d]));
+                worst = test::larger(worst, std::abs(upright[d] - path[3 * t + d]));
         }
         EXPECT_LT(worst, 6e-6) << trial;
     }

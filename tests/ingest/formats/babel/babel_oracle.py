@@ -3,18 +3,14 @@
 
 usage: babel_oracle.py AMASS_FOLDER BABEL_FOLDER ROT6D_DATASET XYZ_DATASET PUBLISHED_DATASET
 Prints a line a dataset: its name, clips, and the largest difference of a number; exits 1, saying why, where clips, labels, splits or
-lengths differ, and 2 where the libraries are not at hand.
+lengths differ.
 """
 import glob, json, os, sys
 
-try:
-    import h5py
-    import numpy as np
-    from scipy.ndimage import zoom
-    from scipy.spatial.transform import Rotation, Slerp
-except ImportError as error:
-    print(error)
-    sys.exit(2)
+import h5py
+import numpy as np
+from scipy.ndimage import zoom
+from scipy.spatial.transform import Rotation, Slerp
 
 PARENTS = [-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19, 20, 21]
 LEFT = {1: (0.0916, -0.1, 0.02), 4: (0, -0.404, 0), 7: (0, -0.428, 0), 10: (0, -0.03, 0.117), 13: (0.06, 0.04, 0),
@@ -97,7 +93,7 @@ def compare(dataset, made, folder, represent):
                 split_wanted, label_wanted, motion = expected[name]
                 if (split.decode(), label, length) != (split_wanted, label_wanted, len(motion)):
                     sys.exit(f"{name}: {split} {label} {length}, not {split_wanted} {label_wanted} {len(motion)}")
-                worst = max(worst, np.abs(shard["motion"][offset : offset + length, 0] - motion).max())
+                worst = np.maximum(worst, np.abs(shard["motion"][offset : offset + length, 0] - motion).max())
                 seen.add(name)
     if seen != set(expected):
         sys.exit(f"{dataset}: {len(set(expected) - seen)} clips are missing, {len(seen - set(expected))} are too many")

@@ -442,6 +442,7 @@ TEST_F(MotionsOnDevice, WhatMakesNoDatasetIsOneLine) {
 }
 
 TEST_F(MotionsOnDevice, NpzTellsAllOfItself) {
+    if (!python_has("numpy")) GTEST_SKIP() << "NumPy is not at hand";
     const auto made_it =
         run_command("mkdir -p " + (dir / "raw").string() + " && cd " + (dir / "raw").string() +
                     " && /usr/bin/python3 -c \"import numpy as np\n"
@@ -449,7 +450,7 @@ TEST_F(MotionsOnDevice, NpzTellsAllOfItself) {
                     "np.savez('all.npz', x=a, y=a[:4], clips=np.array(['x', 'y']), labels=np.array([1, 0]),\n"
                     "  classes=np.array(['sit', 'walk']), names=np.array(['a', 'b', 'c']),\n"
                     "  parents=np.array([-1, 0, 1]), fps=np.float64(50))\"");
-    if (made_it.exit != 0) GTEST_SKIP() << "NumPy is not at hand";
+    ASSERT_EQ(made_it.exit, 0) << made_it.output;
     options.topology.clear();
     run();
     const auto dataset = made();
