@@ -1,11 +1,11 @@
 // actformer export: clips for other programs.
 #include "ingest/export/export.hpp"
-#include "base/text/counted.hpp"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
+#include "base/text/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"

@@ -1,6 +1,5 @@
 // actformer features: what the recogniser sees in motions, for scoring.
 #include "eval/scoring/features.hpp"
-#include "base/text/counted.hpp"
 
 #include <fmt/format.h>
 
@@ -8,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/text/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/motion_options.hpp"

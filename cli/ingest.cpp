@@ -85,7 +85,10 @@ void print_json(const ingest::IngestSummary& s, const IngestOptions& options) {
 }
 
 void add_common(CLI::App* command, IngestOptions& options) {
-    command->add_option("raw", options.raw, "Folders, files, .zip or .tar.* archives")
+    command
+        ->add_option("raw", options.raw,
+                     "Folders, files, or archives: .zip, .tar, .tar.gz, .bz2, .xz, .zst, .lz4 or .lz, .7z, "
+                     ".rar, .cpio")
         ->required()
         ->type_name("RAW");
     command->add_option("-o,--out", options.out, "Folder to make")->required()->type_name("DIR");

@@ -20,7 +20,7 @@ decltype(auto) shown(const Value& value) {
         return value;
 }
 
-/// What cannot be written on standard error is lost, and ends nothing: there is no place left to say so.
+/// Text that standard error does not take is lost, and nothing ends: there is no place left to say so.
 inline void write_to_stderr(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
 }

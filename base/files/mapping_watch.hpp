@@ -11,7 +11,7 @@
 
 namespace actformer {
 
-/// While it lives, SIGBUS within the mapping ends the program with exit code 1 and one line, which names the file. Any other SIGBUS does what it did.
+/// While it lives, SIGBUS within the mapping ends the program with exit code 1 and one line, which names the file. Any other SIGBUS ends it by the signal.
 class MappingWatch {
   public:
     MappingWatch() = default;

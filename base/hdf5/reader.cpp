@@ -176,8 +176,8 @@ void Reader::expect_room_for(const std::vector<std::string>& names) const {
         bytes += std::min(array.numbers * H5Tget_size(array.type.get()), ~bytes);
     }
     if (bytes > much && bytes > product(bytes_, most_of_much))
-        fail("its {} arrays would take {} MiB out of {} MiB: names of one array, or damaged", names.size(),
-             bytes >> 20, bytes_ >> 20);
+        fail("its {} arrays would take {} MiB out of {} MiB: names of one array, or damaged; make it again",
+             names.size(), bytes >> 20, bytes_ >> 20);
 }
 
 Reader::Array Reader::open(const std::string& name) const {

@@ -63,7 +63,7 @@ sigset_t set_of(std::initializer_list<int> signals) {
     return set;
 }
 
-/// Files opened later must not become what is written to standard output or error. What stands in for a closed one fails as that does.
+/// Files opened later must not become what is written to standard output or error. The stand-in for a closed one fails in the same way.
 void take_closed_streams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)

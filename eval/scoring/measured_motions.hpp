@@ -1,7 +1,6 @@
 // Motions measured on their way to a recogniser (eval/metrics/motion_measures.hpp), and such measures on disk.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/text/first_few.hpp"
 #include "base/text/printable.hpp"
+#include "ingest/dataset/dataset.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -76,6 +77,9 @@ ClipNames::ClipNames(const std::string& pattern, const fs::path& labels) {
         kept_.push_back(f);
         fields_.push_back(field);
     }
+    if (fields_.size() > most_fields)
+        throw Error("{} fields out of --labels and --name, and a clip has at most {}; leave out some columns",
+                    fields_.size(), most_fields);
 }
 
 std::string ClipNames::settings() const {

@@ -117,7 +117,8 @@ void support_what_is_wanted(archive* reader) {
          {archive_read_support_format_tar, archive_read_support_format_zip, archive_read_support_format_7zip,
           archive_read_support_format_rar, archive_read_support_format_rar5, archive_read_support_format_cpio,
           archive_read_support_filter_gzip, archive_read_support_filter_bzip2, archive_read_support_filter_xz,
-          archive_read_support_filter_lzma, archive_read_support_filter_zstd, archive_read_support_filter_lz4,
+          archive_read_support_filter_lzma, archive_read_support_filter_lzip,
+          archive_read_support_filter_zstd, archive_read_support_filter_lz4,
           archive_read_support_filter_compress})
         support(reader);
 }

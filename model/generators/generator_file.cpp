@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t most_persons = 16;  // as in configurations
+constexpr std::uint32_t most_persons = 100;  // of a clip, as ingest has it
 
 std::string text_of(const hdf5::Reader& file, const std::string& name, const std::string& where) {
     const auto texts = file.attribute_texts(name);

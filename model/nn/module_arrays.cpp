@@ -32,8 +32,10 @@ void load_arrays(const torch::nn::Module& module, const std::string& prefix, con
     for (const auto& [name, tensor] : tensors_of(module)) {
         const auto& array = array_named(arrays, prefix + name, where);
         if (array.shape != tensor.sizes().vec())
-            throw Error("{}: '{}{}' is of shape ({}) where its configuration wants ({})", where, prefix, name,
-                        fmt::join(array.shape, ", "), fmt::join(tensor.sizes(), ", "));
+            throw Error(
+                "{}: '{}{}' is of shape ({}) where its configuration wants ({}): damaged, or of another "
+                "configuration",
+                where, prefix, name, fmt::join(array.shape, ", "), fmt::join(tensor.sizes(), ", "));
         copy_into(tensor, array, where);
     }
 }
@@ -51,7 +53,8 @@ void load_state(const std::vector<at::Tensor>& tensors, const std::vector<Array>
 const Array& array_named(const std::vector<Array>& arrays, const std::string& name,
                          const std::string& where) {
     const auto found = std::ranges::find(arrays, name, &Array::name);
-    if (found == arrays.end()) throw Error("{}: holds no '{}'", where, name);
+    if (found == arrays.end())
+        throw Error("{}: holds no '{}': damaged, or of another configuration", where, name);
     return *found;
 }
 

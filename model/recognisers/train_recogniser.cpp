@@ -72,6 +72,7 @@ RecogniserResult train_here(const Config& config, const std::filesystem::path& r
     check_split(dataset, "train_split", settings.train_split);
     if (!settings.test_split.empty()) check_split(dataset, "test_split", settings.test_split);
     const auto& header = dataset.header();
+    eval::check_class_count(header.classes.size(), dataset.folder().string());
     const auto joints = settings.joints_seen();
     auto trainee = trainee_for(settings, dataset, torch_device(settings.device));
     set_tf32_and_determinism(settings, torch_device(settings.device));

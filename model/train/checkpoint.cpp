@@ -33,7 +33,7 @@ std::optional<std::uint64_t> step_of(std::string name) {
     return step;
 }
 
-/// Finished checkpoints, the newest first. What is called so and is no file is none.
+/// Finished checkpoints, the newest first. Folders and links to nothing that have such a name are left out.
 std::vector<fs::path> checkpoints_in(const fs::path& folder) {
     std::map<std::uint64_t, fs::path, std::greater<>> by_step;
     try {
@@ -141,8 +141,8 @@ std::optional<Checkpoint> newest_checkpoint(const fs::path& folder, const std::s
         }
         if (auto checkpoint = read_checkpoint(files[i])) {
             if (const auto whose = loose::text(checkpoint->state, "model"); whose != model)
-                throw Error("{}: a checkpoint of {}, not of {}; choose another -o", files[i].string(), whose,
-                            model);
+                throw Error("{}: a checkpoint of {}, not of {}; choose another -o", files[i].string(),
+                            whose.empty() ? "no known model" : whose, model);
             if (!earlier.empty())
                 note(fmt::format("{}: of another version; going back to {}", earlier.string(),
                                  files[i].string()));

@@ -132,7 +132,7 @@ void Loop::resume() {
         try {
             take_over(*found);
         } catch (const Json::exception& e) {
-            throw Error("{}: no progress of this version's ({}); choose another -o", file, e.what());
+            throw Error("{}: damaged, or made by another version ({}); choose another -o", file, e.what());
         }
         say_where_it_goes_on();
     }

@@ -72,7 +72,10 @@ def new_file(target: Path) -> Iterator[Path]:
     finally:
         os.close(handle)
         partial.unlink(missing_ok=True)
-    folder = os.open(place.parent, os.O_RDONLY)
+    try:
+        folder = os.open(place.parent, os.O_RDONLY)
+    except PermissionError:  # a folder that may be written and not read
+        return
     try:
         _sync(folder)
     finally:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -42,6 +43,7 @@ class Child {
                    const std::string& environment = {})
         : pid_(::fork()) {
         if (pid_ != 0) return;
+        ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // it ends with the tests, however they end
         for (const int signal : {SIGINT, SIGTERM, SIGHUP})
             ::signal(signal, SIG_DFL);  // whatever the tests' caller does
         const auto command =
@@ -57,6 +59,14 @@ class Child {
     Child& operator=(const Child&) = delete;
 
     pid_t pid() const { return pid_; }
+
+    /// Whether it has ended, without waiting for that.
+    bool has_ended() const {
+        siginfo_t state{};
+        return pid_ <= 0 ||
+               (::waitid(P_PID, static_cast<id_t>(pid_), &state, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+                state.si_pid != 0);
+    }
 
     /// Its exit code; 128 and the signal's number where one ended it.
     int wait() {

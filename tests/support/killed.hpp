@@ -49,7 +49,8 @@ inline void kill_before(std::size_t call, const std::string& arguments, const st
         fmt::format("LD_PRELOAD={} FAIL_BELOW={} FAIL_LIST={} FAIL_AT={} FAIL_WAITS={}", failing_calls(),
                     folder.string(), (dir / "calls").string(), call, (dir / "never").string()));
     const auto waits = [&] { return static_cast<std::size_t>(lines_in(read_file(dir / "calls"))) >= call; };
-    for (int i = 0; i < 600'000 && !waits(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    for (int i = 0; i < 600'000 && !waits() && !child.has_ended(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
     EXPECT_TRUE(waits()) << read_file(dir / "said");
     ::kill(child.pid(), SIGKILL);
     EXPECT_EQ(child.wait(), 128 + SIGKILL) << read_file(dir / "said");

@@ -228,7 +228,8 @@ TEST_F(HostileFile, ManyNamesOfOneArrayAreRefusedBeforeAllAreRead) {
     const std::vector<std::string> names(300, "a");  // of 4 MiB each
     const auto why = refusal([&] { hdf5::Reader(path).expect_room_for(names); });
     EXPECT_EQ(why, path.string() +
-                       ": its 300 arrays would take 1200 MiB out of 4 MiB: names of one array, or damaged");
+                       ": its 300 arrays would take 1200 MiB out of 4 MiB: names of one array, or damaged; "
+                       "make it again");
 }
 
 TEST_F(HostileFile, AnArrayThatDeflatedToNextToNothingIsRefused) {

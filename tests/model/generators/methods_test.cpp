@@ -137,12 +137,12 @@ TEST(Methods, AreCalledByName) {
 TEST(Methods, MakeMotionsOfFewPersons) {
     const TempDir dir;
     auto subjects = ingest::subjects_of(ingest::Dataset(toy()));
-    subjects.persons = 17;
+    subjects.persons = 101;
     subjects.bone_length.clear();
     save_generator(dir / "w.h5", {{"input.weight", {1}, std::vector<float>{1}}},
                    generator_config(methods().front()), subjects, {});
     EXPECT_EQ(error_of([&] { load_generator(dir / "w.h5"); }),
-              (dir / "w.h5").string() + ": motions of 17 persons, and generators make up to 16: damaged");
+              (dir / "w.h5").string() + ": motions of 101 persons, and generators make up to 100: damaged");
 }
 
 TEST(Methods, AreNoRecognisers) {

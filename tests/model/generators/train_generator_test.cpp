@@ -328,7 +328,7 @@ TEST_F(TrainGenerator, RefusesACheckpointWithoutTheProgressThatItNeeds) {
     checkpoint.state.erase("sums");
     model::save_checkpoint(dir / "run", checkpoint);
     expect_refused(train("run", "epochs=2"),
-                   {newest(dir / "run"), "no progress of this version", "another -o"});
+                   {newest(dir / "run"), "damaged, or made by another version", "another -o"});
 }
 
 TEST_F(TrainGenerator, GoesBackBehindDamagedCheckpointsAndRefusesForeignOnes) {
