@@ -78,9 +78,9 @@ bool is_ignored(int signal) {
 }  // namespace
 
 void end_in_order() {
+    take_closed_streams();
     // Blocked in all threads, as they take it from this one: LLVM, inside OpenCL, has handlers of its own for all of these, and asks
     // nobody. Those that end the program are waited for, also where its caller ignores them, and then nothing is done.
-    take_closed_streams();
     ::signal(SIGPIPE, SIG_IGN);
     ::signal(SIGXFSZ, SIG_IGN);
     block_signals();

@@ -39,13 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const Hdf5InMemory on_disk;
     static const ingest::GtaFormat format({});
     Choices choose(data, size);
-    {
-        const auto file = new_file();
-        make_fights(file.get(), choose);
-        auto image = image_of(file);
-        if (choose.below(4) == 1) lengthen(image, choose);
-        on_disk.write(image);
-    }
+    on_disk.write(made_file(make_fights, choose));
     const auto& path = on_disk.path();
     try_to([&] {
         CheckedFights sink;

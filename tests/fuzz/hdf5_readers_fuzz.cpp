@@ -89,14 +89,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const Hdf5InMemory on_disk;
     Choices choose(data, size);
     const auto kind = choose.below(3);
-    {
-        const auto file = new_file();
-        constexpr void (*make[])(hid_t, Choices&) = {make_shard, make_motions, make_features};
-        make[kind](file.get(), choose);
-        auto image = image_of(file);
-        if (choose.below(4) == 1) lengthen(image, choose);
-        on_disk.write(image);
-    }
+    constexpr void (*make[])(hid_t, Choices&) = {make_shard, make_motions, make_features};
+    on_disk.write(made_file(make[kind], choose));
     const auto& path = on_disk.path();
     if (kind == 0)
         try_to([&] {

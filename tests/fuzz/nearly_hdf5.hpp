@@ -109,6 +109,15 @@ inline void add_text(hid_t file, const char* name, const std::string& text) {
     H5Awrite(attribute.get(), type.get(), text.data());
 }
 
+/// The bytes of a file that `make` fills, now and then with extents beyond it.
+inline std::vector<char> made_file(void (*make)(hid_t, Choices&), Choices& choose) {
+    const auto file = new_file();
+    make(file.get(), choose);
+    auto image = image_of(file);
+    if (choose.below(4) == 1) lengthen(image, choose);
+    return image;
+}
+
 /// A file that HDF5's library opens by its path: else readers would refuse all, and nothing be tried.
 class Hdf5InMemory {
   public:

@@ -84,19 +84,11 @@ void read_gru(const std::string& path) {
 constexpr void (*makers[])(hid_t, Choices&) = {make_stgcn, make_gru};
 constexpr void (*readers[])(const std::string&) = {read_stgcn, read_gru};
 
-void write(const Hdf5InMemory& on_disk, std::size_t kind, Choices& choose) {
-    const auto file = new_file();
-    makers[kind](file.get(), choose);
-    auto image = image_of(file);
-    if (choose.below(4) == 1) lengthen(image, choose);
-    on_disk.write(image);
-}
-
 /// Weights of which nothing is chosen must be taken, else this throws: nothing behind a refusal of all would be tried.
 bool try_sound_ones(const Hdf5InMemory& on_disk) {
     for (const std::size_t kind : {0, 1}) {
         Choices none(nullptr, 0);
-        write(on_disk, kind, none);
+        on_disk.write(made_file(makers[kind], none));
         readers[kind](on_disk.path());
     }
     return true;
@@ -110,7 +102,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     [[maybe_unused]] static const bool tried = try_sound_ones(on_disk);
     Choices choose(data, size);
     const auto kind = choose.below(2);
-    write(on_disk, kind, choose);
+    on_disk.write(made_file(makers[kind], choose));
     try_to([&] { readers[kind](on_disk.path()); });
     return 0;
 }

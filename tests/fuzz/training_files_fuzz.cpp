@@ -82,14 +82,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const Hdf5InMemory on_disk;
     Choices choose(data, size);
     const auto kind = choose.below(3);
-    {
-        const auto file = new_file();
-        constexpr void (*make[])(hid_t, Choices&) = {make_checkpoint, make_arrays, make_measures};
-        make[kind](file.get(), choose);
-        auto image = image_of(file);
-        if (choose.below(4) == 1) lengthen(image, choose);
-        on_disk.write(image, checksum_line({image.data(), image.size()}));
-    }
+    constexpr void (*make[])(hid_t, Choices&) = {make_checkpoint, make_arrays, make_measures};
+    const auto image = made_file(make[kind], choose);
+    on_disk.write(image, checksum_line({image.data(), image.size()}));
     constexpr void (*read[])(const std::string&) = {read_checkpoint, read_arrays, read_measures};
     try_to([&] { read[kind](on_disk.path()); });
     return 0;
