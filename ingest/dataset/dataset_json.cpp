@@ -102,7 +102,7 @@ void check_columns(const std::vector<std::string>& fields, const std::string& wh
 }
 
 DatasetFile from_json(const Json& json, const std::string& where) {
-    if (const auto format = json.at("format").get<int>(); format < 1 || format > dataset_format)
+    if (const auto format = whole_number<int>(json.at("format")); format < 1 || format > dataset_format)
         throw Error(
             "{}: format {}, but this program reads formats 1 to {}; use the version it was written with ({})",
             where, format, dataset_format, json.value("program", "unknown"));
@@ -117,10 +117,11 @@ DatasetFile from_json(const Json& json, const std::string& where) {
     header.name = json.at("name").get<std::string>();
     header.representation = Representation::named(json.at("representation").get<std::string>(), where);
     header.fps = json.at("fps").get<double>();
-    header.persons = json.at("persons").get<std::uint32_t>();
+    header.persons = whole_number<std::uint32_t>(json.at("persons"));
     header.centre_windows = json.value("centre", "clip") == "window";
-    header.topology = {json.at("topology").at("names").get<std::vector<std::string>>(),
-                       json.at("topology").at("parents").get<std::vector<int>>()};
+    header.topology.names = json.at("topology").at("names").get<std::vector<std::string>>();
+    for (const auto& parent : json.at("topology").at("parents"))
+        header.topology.parents.push_back(whole_number<int>(parent));
     header.classes = json.at("classes").get<std::vector<std::string>>();
     header.fields = json.at("fields").get<std::vector<std::string>>();
     check_columns(header.fields, where);
@@ -162,9 +163,9 @@ ShardEntry shard_from_json(const nlohmann::json& json) {
     const bool of_bytes = !json.contains("contents");
     return {json.at("file").get<std::string>(),
             json.at(of_bytes ? "checksum" : "contents").get<std::string>(),
-            json.at("bytes").get<std::uint64_t>(),
-            json.at("clips").get<std::uint64_t>(),
-            json.at("frames").get<std::uint64_t>(),
+            whole_number<std::uint64_t>(json.at("bytes")),
+            whole_number<std::uint64_t>(json.at("clips")),
+            whole_number<std::uint64_t>(json.at("frames")),
             of_bytes,
             json.value("metadata", "")};
 }

@@ -26,7 +26,7 @@ struct DatasetFile {
 
 std::string to_text(const DatasetFile& file);
 
-/// Throws Error naming `path` and the key at fault, or where its checksum is wrong. Whoever edits it leaves the checksum out.
+/// Throws Error naming `path` and the key at fault, or where its checksum is wrong. To edit it, take out its members "checksum" and "program".
 DatasetFile read_dataset_json(const std::filesystem::path& path);
 
 /// {"data": .., "skeleton": ..}; what is not told is left out.

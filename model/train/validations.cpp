@@ -1,5 +1,7 @@
 #include "model/train/validations.hpp"
 
+#include "base/text/json.hpp"
+
 namespace actformer::model {
 namespace {
 
@@ -11,8 +13,8 @@ Json json_of(const ValidationReport& report) {
 
 ValidationReport report_from(const Json& json) {
     ValidationReport report;
-    report.epoch = json.at("epoch");
-    report.step = json.at("step");
+    report.epoch = whole_number<std::uint64_t>(json.at("epoch"));
+    report.step = whole_number<std::uint64_t>(json.at("step"));
     report.values = json.at("values");
     return report;
 }
