@@ -264,13 +264,15 @@ void add_bench_ingest(CLI::App& bench) {
         ->check(CLI::IsMember({"ntu", "motions", "babel"}))
         ->capture_default_str();
     command->add_option("--gigabytes", options->gigabytes, "Size of the array")
-        ->check(CLI::Range(0.001, 1000.0))
+        ->check(number_in(0.001, 1000))
         ->capture_default_str();
     command->add_option("--hours", options->hours, "Hours of recordings in AMASS's layout")
-        ->check(CLI::Range(0.01, 100.0))
+        ->check(number_in(0.01, 100))
         ->capture_default_str();
-    command->add_option("--many-hours", options->many_hours,
-                        "Also ingest so many hours of linked recordings, to watch the memory");
+    command
+        ->add_option("--many-hours", options->many_hours,
+                     "Also ingest so many hours of linked recordings, to watch the memory")
+        ->check(number_in(0, 100000));
     command->add_option("--clips", options->clips, "Clips, half of them copies of the sample")
         ->capture_default_str();
     command->add_option("--many", options->many, "Also ingest so many linked clips, to watch the memory");

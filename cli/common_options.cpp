@@ -1,7 +1,9 @@
 #include "cli/common_options.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/text/lower_case.hpp"
@@ -36,6 +38,27 @@ std::function<std::string(const std::string&)> ends_in(const std::string& ending
                                    printable(path), given, ending);
         return {};
     };
+}
+
+CLI::Validator number_in(double least, double most) {
+    const auto refuse_nan = [](std::string& text) -> std::string {
+        double number = 0;
+        const bool is_nan = CLI::detail::lexical_cast(text, number) && std::isnan(number);
+        return is_nan ? fmt::format("Value {} not in range of numbers", text) : "";
+    };
+    return CLI::Range(least, most) & CLI::Validator(refuse_nan, "");
+}
+
+CLI::Option* add_overrides(CLI::App* command, std::vector<std::string>& overrides, const std::string& help) {
+    const auto take = [&overrides](const std::vector<std::string>& words) {
+        std::set<std::string> seen;
+        for (const auto& word : words)
+            if (const auto key = word.substr(0, word.find('=')); !seen.insert(key).second)
+                throw Error("'{}': {} is given twice", word, key);
+        overrides = words;
+    };
+    return command->add_option_function<std::vector<std::string>>("overrides", take, help)
+        ->type_name("KEY=VALUE");
 }
 
 void refuse_given(const CLI::App& command, std::initializer_list<const char*> options,

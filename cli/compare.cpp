@@ -212,8 +212,18 @@ Json to_json(const eval::Interval& interval) {
     return out;
 }
 
-Json to_json(const std::vector<Compared>& all, const std::vector<std::string>& warnings,
-             const fs::path& page) {
+/// A motions file is one repeat.
+Json inputs_json(const CompareOptions& options) {
+    return {{"a", options.a.string()},
+            {"b", options.b.string()},
+            {"recogniser", options.recogniser.string()},
+            {"real", options.real.string()},
+            {"split", printable(options.split)},
+            {"repeats", holds_motions(options.a) ? 1 : options.repeats}};
+}
+
+Json to_json(const CompareOptions& options, const std::vector<Compared>& all,
+             const std::vector<std::string>& warnings, const fs::path& page) {
     Json metrics = Json::object();
     for (const auto& one : all) {
         auto& entry = metrics[std::string(one.metric->name)];
@@ -222,7 +232,11 @@ Json to_json(const std::vector<Compared>& all, const std::vector<std::string>& w
         if (one.further) entry["distance_from_real"] = to_json(*one.further);
         entry["better"] = one.b_better ? Json(*one.b_better ? "b" : "a") : Json();
     }
-    return {{"metrics", metrics}, {"warnings", warnings}, {"report", page.string()}};
+    auto json = inputs_json(options);
+    json["metrics"] = metrics;
+    json["warnings"] = warnings;
+    json["report"] = page.string();
+    return json;
 }
 
 /// As a table may be called, and another for each folder.
@@ -294,7 +308,7 @@ void run(const CompareOptions& options) {
     refuse_other_than_comparisons(out);
     auto sweep = comparison(options);
     const SweepJobs jobs((program_folder() / "actformer").string(), out);
-    const auto plan = reports::make_plan(sweep, {}, jobs);
+    const auto plan = reports::make_plan(sweep, {}, out, jobs);
     for (const auto& job : plan.jobs)
         if (!job.problem.empty()) throw Error("{}", job.problem);
     for (const auto& status : reports::run_plan(sweep, plan, {out, jobs}, events_told(out)))
@@ -313,7 +327,7 @@ void run(const CompareOptions& options) {
                   .force = true,
                   .filled_only = true});
     if (options.json)
-        say_json(to_json(all, warnings, out / "report.html"));
+        say_json(to_json(options, all, warnings, out / "report.html"));
     else
         print(all, warnings, sweep);
 }

@@ -24,17 +24,29 @@
 namespace actformer::cli {
 namespace {
 
-/// Figures in the tables that rows fill, else in those of all rows; and curves of trainings.
-std::string contents(std::size_t figures, const std::vector<reports::MeasuredRow>& rows) {
-    const auto trainings = static_cast<std::size_t>(
+std::size_t trainings_among(const std::vector<reports::MeasuredRow>& rows) {
+    return static_cast<std::size_t>(
         std::ranges::count_if(rows, [](const auto& row) { return row.sweep.empty(); }));
-    const auto scored = rows.size() - trainings;
-    std::string out;
-    if (scored > 0 || trainings == 0)
-        out = fmt::format("{} measured in {}", counted(figures, "figure"), counted(scored, "row"));
-    if (trainings > 0)
-        out += fmt::format("{}curves of {}", out.empty() ? "" : ", ", counted(trainings, "training"));
-    return out;
+}
+
+/// Figures in the tables that rows fill, else in those of all rows.
+std::string contents_of_tables(std::size_t figures, const std::vector<reports::MeasuredRow>& rows) {
+    return fmt::format("{} measured in {}", counted(figures, "figure"),
+                       counted(rows.size() - trainings_among(rows), "row"));
+}
+
+/// Those figures, and curves of trainings.
+std::string contents_of_page(std::size_t figures, const std::vector<reports::MeasuredRow>& rows) {
+    const auto trainings = trainings_among(rows);
+    if (trainings == 0) return contents_of_tables(figures, rows);
+    const auto curves = fmt::format("curves of {}", counted(trainings, "training"));
+    return rows.size() == trainings ? curves : contents_of_tables(figures, rows) + ", " + curves;
+}
+
+/// Says that it did.
+void write_and_tell(const std::filesystem::path& path, const std::string& text, const std::string& contents) {
+    write_whole(path, text);
+    remark("{}: {}, {}\n", path.string(), contents, bytes(text.size()));
 }
 
 /// Whether a row is for a cell of the papers' tables.
@@ -44,6 +56,12 @@ bool fills_papers(const std::vector<reports::FilledTable>& tables) {
         return table.has_rows() &&
                std::ranges::find(papers, table.paper->id, &reports::PaperTable::id) != papers.end();
     });
+}
+
+/// Whether any of its runs waits or runs, as others of a row that failed may.
+bool goes_on(const reports::MeasuredRow& row) {
+    return std::ranges::any_of(
+        row.runs, [](const auto& run) { return run.status == "waiting" || run.status == "running"; });
 }
 
 std::size_t measured_cells(const std::vector<reports::FilledTable>& tables) {
@@ -94,15 +112,15 @@ bool write_report(const ReportOptions& options) {
     if (!options.out.empty()) {
         const reports::DetailOptions details{static_cast<std::size_t>(1e6 * options.motion_megabytes)};
         const auto data = reports::details(measured, details);
-        const auto html = reports::page(options.title, tables, measured.notices, data);
-        write_whole(options.out, html);
-        remark("{}: {}, {}\n", options.out.string(), contents(figures, measured.rows), bytes(html.size()));
+        write_and_tell(options.out, reports::page(options.title, tables, measured.notices, data),
+                       contents_of_page(figures, measured.rows));
     }
-    if (!options.csv.empty()) write_whole(options.csv, reports::to_csv(tables));
-    if (!options.latex.empty()) write_whole(options.latex, reports::to_latex(tables));
+    const auto contents = contents_of_tables(figures, measured.rows);
+    if (!options.csv.empty()) write_and_tell(options.csv, reports::to_csv(tables), contents);
+    if (!options.latex.empty()) write_and_tell(options.latex, reports::to_latex(tables), contents);
     for (const auto& notice : measured.notices) remark("notice: {}\n", notice);
     if (options.json) say_json(reports::to_json(tables, measured.notices));
-    return std::ranges::any_of(measured.rows, [](const auto& row) { return row.status == "waiting"; });
+    return std::ranges::any_of(measured.rows, goes_on);
 }
 
 void add_report(CLI::App& app) {
@@ -119,7 +137,7 @@ void add_report(CLI::App& app) {
     command
         ->add_option("--motion-megabytes", options->motion_megabytes,
                      "What the motions may add to the page, MB")
-        ->check(CLI::Range(0.0, 1000.0))
+        ->check(number_in(0, 1000))
         ->capture_default_str();
     const auto seconds = std::make_shared<unsigned>(0);
     command

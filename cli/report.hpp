@@ -18,7 +18,7 @@ struct ReportOptions {
         false;  ///< leave out tables that nothing was run for; they are where no row is for the papers' ones
 };
 
-/// Says on standard error what it wrote and what is missing. Whether rows are still to be measured. Throws Error for folders without
+/// Says on standard error which files it wrote and what is missing. Whether rows are still to be measured. Throws Error for folders without
 /// results.
 bool write_report(const ReportOptions& options);
 

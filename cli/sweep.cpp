@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <sstream>
 #include <string>
 
+#include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/process/process.hpp"
 #include "base/text/counted.hpp"
+#include "base/text/loose_json.hpp"
 #include "base/threads/parallel.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -76,6 +79,13 @@ void print_plan(const reports::Plan& plan, const SweepOptions& options, const Sw
         say("{} of them neither done nor in Slurm's queue; --slurm submits them again\n", dropped);
 }
 
+/// What a job took, or may take; none of one that failed.
+std::optional<double> seconds_of(const reports::Plan& plan, const std::vector<reports::JobStatus>& status,
+                                 std::size_t job) {
+    if (status[job].state == JobState::failed) return {};
+    return status[job].state == JobState::done ? status[job].seconds : reports::estimate(plan, status, job);
+}
+
 /// [{"id", "title", "state", "seconds": that it took, or may take, "why": it cannot be done, "commands"}]
 Json jobs_json(const reports::Plan& plan, const SweepOptions& options, const SweepJobs& jobs) {
     const auto in_slurm = options.status ? reports::jobs_in_slurm(options.out) : std::nullopt;
@@ -86,9 +96,7 @@ Json jobs_json(const reports::Plan& plan, const SweepOptions& options, const Swe
         const bool queued = status[i].state == JobState::waiting && in_slurm && in_slurm->contains(job.id);
         Json one{
             {"id", job.id}, {"title", job.title}, {"state", queued ? "queued" : name_of(status[i].state)}};
-        const auto seconds =
-            status[i].state == JobState::done ? status[i].seconds : reports::estimate(plan, status, i);
-        if (seconds) one["seconds"] = *seconds;
+        if (const auto seconds = seconds_of(plan, status, i)) one["seconds"] = *seconds;
         if (!status[i].why.empty()) one["why"] = status[i].why;
         one["commands"] = jobs.command_lines(job);
         out.push_back(std::move(one));
@@ -106,8 +114,9 @@ std::size_t print_rows(const reports::Sweep& sweep, const reports::Plan& plan, c
         ++failed;
         say("failed: {}: {}\n", row["name"].get<std::string>(), row["why"].get<std::string>());
     }
-    say("{} of {} done; {}\n", done, counted(results["rows"].size(), "row"),
-        (options.out / "results.json").string());
+    const auto file = options.out / "results.json";
+    say("{} of {} done{}\n", done, counted(results["rows"].size(), "row"),
+        fs::exists(file) ? "; " + file.string() : "");
     return failed;
 }
 
@@ -155,13 +164,47 @@ void refuse_what_cannot_be_done(const reports::Plan& plan, const fs::path& file)
                     counted(plan.jobs.size(), "job"));
 }
 
+/// The sweep would replace them. Damaged ones are written anew.
+void refuse_results_of_others(const reports::Sweep& sweep, const SweepOptions& options) {
+    const auto held = loose::read(options.out / "results.json");
+    if (own_checksum_of(held) == OwnChecksum::wrong) return;
+    const auto out = options.out.string(), name = loose::text(held, "sweep");
+    if (loose::member(held, "comparison") == Json(true))
+        throw Error("{}: holds a comparison, not the sweep '{}'; choose another -o", out, sweep.name);
+    if (!name.empty() && name != sweep.name)
+        throw Error(
+            "{}: holds the sweep '{}', not '{}'; choose another -o, or write `name: {}` into {} if it is "
+            "the same sweep",
+            out, name, sweep.name, name, options.file.string());
+}
+
+/// As the system finds it: a name without a slash lies in a folder of PATH.
+void expect_program(const std::string& program) {
+    const auto can_be_run = [](const fs::path& file) {
+        std::error_code unread;
+        return fs::is_regular_file(file, unread) && ::access(file.c_str(), X_OK) == 0;
+    };
+    if (program.find('/') != std::string::npos) {
+        if (!can_be_run(program))
+            throw Error("--program: {} cannot be run; give an executable file", program);
+        return;
+    }
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (can_be_run(fs::path(folder) / program)) return;
+    throw Error("--program: there is no program {} in PATH; give its path", program);
+}
+
 void run(SweepOptions options) {
     if (options.program.empty()) options.program = (program_folder() / "actformer").string();
+    expect_program(options.program);
     options.out = fs::absolute(options.out).lexically_normal();
     ingest::refuse_other_folder(options.out, ingest::own::sweep);
     const auto sweep = reports::read_sweep(options.file);
+    refuse_results_of_others(sweep, options);
     const SweepJobs jobs(options.program, options.out);
-    auto plan = reports::make_plan(sweep, options.file.parent_path(), jobs);
+    auto plan = reports::make_plan(sweep, options.file.parent_path(), options.out, jobs);
     SweepJobs::check_stand_ins(plan.jobs);
     if (options.only.empty() && !options.status) reports::check_splits(options.file, plan, options.out);
     if (options.dry_run) {
@@ -185,7 +228,6 @@ void run(SweepOptions options) {
         return;
     }
     if (options.dry_run || options.status) {
-        if (options.status && fs::exists(options.out)) reports::write_results(sweep, plan, options.out);
         if (options.json) {
             auto json = reports::results(sweep, plan, options.out);
             json["jobs"] = jobs_json(plan, options, jobs);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/common_options.hpp"
 #include "cli/say.hpp"
 #include "cli/shipped_option.hpp"
 
@@ -24,8 +25,7 @@ void add_training_options(CLI::App* command, TrainingOptions& options) {
     command->add_option("--data", options.data, "Dataset folder; overrides the configuration's data:")
         ->type_name("DATASET");
     command->add_option("-o,--out", options.run, "Folder of this training")->required()->type_name("RUN");
-    command->add_option("overrides", options.overrides, "As in batch=32: overrides the configuration")
-        ->type_name("KEY=VALUE");
+    add_overrides(command, options.overrides, "As in batch=32: overrides the configuration");
     command->add_flag("--json", options.json, "Print the result as JSON");
 }
 

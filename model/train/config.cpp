@@ -12,6 +12,7 @@
 #include "base/files/file.hpp"
 #include "base/text/nearest_word.hpp"
 #include "base/text/printable.hpp"
+#include "base/text/yaml.hpp"
 
 namespace actformer::model {
 namespace {
@@ -134,11 +135,10 @@ std::string text_of(const Value& value) {
 
 /// None where it is not there. Throws Error where it cannot be read, or is larger than any configuration.
 std::optional<std::string> configuration_text(const std::filesystem::path& file) {
-    constexpr std::uint64_t largest = std::uint64_t{16} << 20;
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return {};
     std::vector<char> scratch;
-    return std::string(read_text(file, scratch, largest));
+    return std::string(read_text(file, scratch, largest_yaml));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "base/text/loose_json.hpp"
 #include "reports/page/curves.hpp"
 #include "reports/page/training.hpp"
+#include "reports/same_path.hpp"
 #include "reports/tables/own_tables.hpp"
 
 namespace actformer::reports {
@@ -152,13 +153,8 @@ MeasuredRow read_row(const Json& json, const std::string& sweep, const fs::path&
     return row;
 }
 
-/// Once, and under its path where another row has its name.
+/// Under its path where another row has its name.
 void add_training(MeasuredRow row, const fs::path& folder, std::vector<MeasuredRow>& rows) {
-    const auto here = [](const MeasuredRow& one) {
-        return std::pair(one.runs[0].run, one.runs[0].recogniser);
-    };
-    for (const auto& one : rows)
-        if (one.sweep.empty() && here(one) == here(row)) return;
     if (std::ranges::any_of(rows, [&](const auto& one) { return one.name == row.name; }))
         row.name = fs::weakly_canonical(folder).string();
     rows.push_back(std::move(row));
@@ -181,6 +177,8 @@ const MeasuredRun* MeasuredRow::trained() const {
 }
 
 Measured read_measured(const std::vector<fs::path>& folders) {
+    if (const auto again = given_twice(folders))
+        throw Error("{}: given twice; name each folder once", again->string());
     Measured out;
     for (std::size_t i = 0; i < folders.size(); ++i) {
         const auto& folder = folders[i];

@@ -47,7 +47,7 @@ struct Measured {
 };
 
 /// Reads OUT/results.json of every folder and the scores that it names; the folder of a training is a row of its own. Throws Error for
-/// any other folder, and for results that are damaged or of another format, and for two tables of one name with other columns; scores that are missing or damaged become notices.
+/// any other folder, for one that is given twice, and for results that are damaged or of another format, and for two tables of one name with other columns; scores that are missing or damaged become notices.
 Measured read_measured(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace actformer::reports

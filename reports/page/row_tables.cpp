@@ -14,9 +14,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Rows = std::vector<const MeasuredRow*>;
 
-/// Frames of the real windows; null where the scores do not tell.
+/// What the scores say of the real motions' provenance; null where they do not tell.
+const Json& of_real_side(const MeasuredRow& row, const char* key) {
+    return loose::member(loose::member(loose::member(row.shown()->scored, "provenance"), "real"), key);
+}
+
+/// Frames of the real windows.
 const Json& window_of(const MeasuredRow& row) {
-    return loose::member(loose::member(loose::member(row.shown()->scored, "provenance"), "real"), "window");
+    return of_real_side(row, "window");
 }
 
 std::string in_windows(const Json& frames) {
@@ -25,14 +30,15 @@ std::string in_windows(const Json& frames) {
 }
 
 /// Against what, and by which recogniser a row was scored: figures of others are not to be held against its own.
-using Against = std::tuple<std::string, std::string, std::string, std::string, std::string>;
+using Against = std::tuple<std::string, std::string, std::string, std::string, std::string, std::string>;
 
 Against against(const MeasuredRow& row) {
     const auto& provenance = loose::member(row.shown()->scored, "provenance");
     std::string recognisers;
     for (const char* which : {"recogniser", "single_recogniser"})
         recognisers += loose::member(loose::member(provenance, which), "checksum").dump();
-    return {row.sweep, row.dataset, row.split, recognisers, window_of(row).dump()};
+    return {row.sweep,   row.dataset,          row.split, of_real_side(row, "fingerprint").dump(),
+            recognisers, window_of(row).dump()};
 }
 
 /// Those with scores, in the order in which they come.

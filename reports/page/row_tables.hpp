@@ -8,8 +8,9 @@
 
 namespace actformer::reports {
 
-/// Rows are held together by sweep, dataset and split: those were scored against the same motions. The last row of a table is what real
-/// motions come to: their own value, or, of a distance, that of real motions to other real ones. Points into `measured`.
+/// Rows are held together by sweep, dataset (its name, and the fingerprint that the scores tell), split, window and recogniser: those were
+/// scored against the same motions. The last row of a table is what real motions come to: their own value, or, of a distance, that of real
+/// motions to other real ones. Points into `measured`.
 class RowTables {
   public:
     explicit RowTables(const Measured& measured);

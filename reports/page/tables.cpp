@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/text/counted.hpp"
 #include "base/text/loose_json.hpp"
 #include "eval/metrics/confusion.hpp"
 
@@ -134,6 +135,13 @@ void mark_best(Column column) {
         column.at(measured[0].row).best =
             std::all_of(measured.begin() + 1, measured.end(),
                         [&](const Candidate& one) { return surely_further(one, measured[0]); });
+}
+
+/// The first of a group's figures that was measured; empty where none was.
+Figures first_measured(const CellGroup& group) {
+    const auto is_measured = [](const Figures& figures) { return figures.measured.has_value(); };
+    const auto found = std::ranges::find_if(group.figures, is_measured);
+    return found == group.figures.end() ? Figures() : *found;
 }
 
 /// What the scores say of where they come from.
@@ -267,10 +275,11 @@ std::vector<std::string> provenance(const CellGroup& group) {
     std::string seeds;
     for (const auto& run : row.runs)
         if (!run.scored.is_null()) seeds += (seeds.empty() ? "" : ", ") + std::to_string(run.seed);
-    if (!seeds.empty())
-        lines.push_back(
-            fmt::format("seeds {}; {} repeats of generation and scoring", seeds, group.figures[0].repeats));
-    if (const auto over = over_what(group.figures[0]); !over.empty()) lines.push_back("± over " + over);
+    const auto figures = first_measured(group);
+    if (figures.repeats > 0)
+        seeds += fmt::format("; {} of generation and scoring", counted(figures.repeats, "repeat"));
+    if (!seeds.empty()) lines.push_back("seeds " + seeds);
+    if (const auto over = over_what(figures); !over.empty()) lines.push_back("± over " + over);
     std::string settings;
     for (const auto& [key, value] : row.settings.items())
         settings += fmt::format("{}{}={}", settings.empty() ? "" : " ", key,

@@ -167,6 +167,21 @@ void draw_moving(cv::Mat& cell, const Stage& stage, const Measures& m, double se
         .setTo(style::scalar(style::body(0).left));
 }
 
+/// Columns and rows of an animation's motions.
+std::vector<cv::Point> cells_of(const std::vector<JointMotion>& motions, const Layout& layout) {
+    const auto near_square = std::ceil(std::sqrt(static_cast<double>(motions.size())));
+    const int columns = layout.across > 0 ? layout.across : static_cast<int>(near_square);
+    std::vector<cv::Point> cells;
+    cv::Point next;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+        const bool other_class = layout.across > 0 && i > 0 && motions[i].label != motions[i - 1].label;
+        if (other_class || next.x == columns) next = {0, next.y + 1};
+        cells.push_back(next);
+        ++next.x;
+    }
+    return cells;
+}
+
 }  // namespace
 
 cv::Mat contact_sheet(const std::vector<JointMotion>& motions, const Layout& layout) {
@@ -193,10 +208,8 @@ cv::Mat contact_sheet(const std::vector<JointMotion>& motions, const Layout& lay
 Film animation(const std::vector<JointMotion>& motions, const Layout& layout) {
     const auto stages = std::make_shared<const std::vector<Stage>>(stages_of(motions, layout));
     const Measures m(*stages, layout, 0.72, motions.size() == 1 ? 2.0 : 1.4);
-    const auto count = static_cast<int>(motions.size());
-    const int columns =
-        layout.across > 0 ? std::min(layout.across, count) : static_cast<int>(std::ceil(std::sqrt(count)));
-    const int rows = (count + columns - 1) / columns;
+    const auto cells = cells_of(motions, layout);
+    const int columns = 1 + std::ranges::max(cells, {}, &cv::Point::x).x, rows = 1 + cells.back().y;
     const int height = m.margin / 2 + m.title + m.title / 2 + m.cell_height + 2 * m.small,
               footer = m.small + m.margin;
 
@@ -211,12 +224,12 @@ Film animation(const std::vector<JointMotion>& motions, const Layout& layout) {
     const auto even = [](std::int64_t v) { return v + v % 2; };
     film.size =
         limited(even(std::int64_t{columns} * m.cell_width), even(std::int64_t{rows} * height + footer));
-    film.draw = [stages, m, columns, height, size = film.size, fps = film.fps](std::size_t frame) {
+    film.draw = [stages, m, cells, height, size = film.size, fps = film.fps](std::size_t frame) {
         auto picture = blank(size);
-        for (int i = 0; i < static_cast<int>(stages->size()); ++i) {
-            cv::Mat cell =
-                picture(cv::Rect(i % columns * m.cell_width, i / columns * height, m.cell_width, height));
-            draw_moving(cell, (*stages)[static_cast<std::size_t>(i)], m, static_cast<double>(frame) / fps);
+        for (std::size_t i = 0; i < stages->size(); ++i) {
+            const cv::Point at(cells[i].x * m.cell_width, cells[i].y * height);
+            cv::Mat cell = picture(cv::Rect(at, cv::Size(m.cell_width, height)));
+            draw_moving(cell, (*stages)[i], m, static_cast<double>(frame) / fps);
         }
         draw_legend(picture, *stages, {size.width - m.margin / 2, size.height - m.margin / 2}, m.small);
         return picture;

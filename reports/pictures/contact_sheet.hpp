@@ -14,7 +14,7 @@ struct Layout {
     View view;
     int size = 320;   ///< height of a motion's cell in pixels, 40 .. 4000
     int columns = 8;  ///< snapshots a motion on a contact sheet, 1 .. 100
-    int across = 0;   ///< motions in a row of an animation; 0: as many as make it near-square
+    int across = 0;   ///< most motions in a row of an animation, all of a class; 0: near-square, of any
     double fps = 0;   ///< of an animation; 0: as the first motion
     int samples = 3;  ///< a body's pixels are made from samples x samples each
 };

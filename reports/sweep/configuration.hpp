@@ -3,28 +3,30 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/text/yaml.hpp"
 #include "reports/sweep/job.hpp"
 
 namespace actformer::reports {
 
-/// Bytes of a sweep's YAML, or of a configuration that it names.
-inline constexpr std::uint64_t largest_yaml = std::uint64_t{16} << 20;
-
-/// Of a key; `otherwise` where there is no such file or key, it says no T, or the file is larger than any configuration.
+/// Of a key; `otherwise` where there is no such file or key, it says no T, or the file is larger than any configuration. A text without
+/// a value (`test_split:`) is empty, as for a training.
 template <typename T>
 T in_configuration(const std::filesystem::path& file, const std::string& key, T otherwise) {
     std::error_code unread;
     if (!std::filesystem::is_regular_file(file, unread)) return otherwise;
     std::vector<char> scratch;
     try {
-        return YAML::Load(std::string(read_text(file, scratch, largest_yaml)))[key].as<T>(otherwise);
+        const YAML::Node root = YAML::Load(std::string(read_text(file, scratch, largest_yaml)));
+        const auto said = root[key];
+        if (said && said.IsNull()) return std::is_same_v<T, std::string> ? T() : otherwise;
+        return said.as<T>(otherwise);
     } catch (const YAML::Exception&) {
         return otherwise;
     } catch (const Error&) {

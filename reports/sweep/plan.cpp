@@ -9,11 +9,14 @@
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
 #include "base/files/nearest_file.hpp"
+#include "base/hdf5/reader.hpp"
 #include "base/process/shipped.hpp"
 #include "eval/run_weights.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/dataset/own_kind.hpp"
+#include "reports/same_path.hpp"
 #include "reports/sweep/configuration.hpp"
+#include "reports/sweep/raw_files.hpp"
 
 namespace actformer::reports {
 namespace {
@@ -41,11 +44,37 @@ double training_pace(const std::string& kind, const Settings& set, const fs::pat
     return 17 * std::pow(number_in(set, config, "width", 1), -1.67);
 }
 
+/// The Error that `refuse` throws for an HDF5 file; empty without one, and for a file that cannot be read: the job that uses it will say
+/// why.
+template <typename Refuse>
+std::string fault_of_file(const fs::path& path, Refuse refuse) {
+    std::optional<hdf5::Reader> file;
+    try {
+        if (fs::is_regular_file(path)) file.emplace(path);
+    } catch (const Error&) {
+        return {};
+    }
+    try {
+        if (file) refuse(*file);
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return {};
+}
+
+/// Empty where it may hold motions, as files of other tools do.
+std::string fault_of_motions(const fs::path& path) {
+    if (fs::is_directory(path))
+        return fmt::format("{}: a folder; a file of motions (.h5) is expected", path.string());
+    return fault_of_file(
+        path, [&](const hdf5::Reader& file) { ingest::refuse_other_than_motions(file, path.string()); });
+}
+
 /// Builds the jobs one after another; the same work asked for again is the same job.
 class Planner {
   public:
-    Planner(const Sweep& sweep, fs::path beside, const JobRunner& runner)
-        : sweep_(sweep), beside_(std::move(beside)), runner_(runner) {}
+    Planner(const Sweep& sweep, fs::path beside, fs::path out, const JobRunner& runner)
+        : sweep_(sweep), beside_(std::move(beside)), out_(std::move(out)), runner_(runner) {}
 
     Plan plan() {
         for (const auto& row : sweep_.rows) plan_row(row);
@@ -81,10 +110,22 @@ class Planner {
         return is.empty() ? "" : fmt::format("{}: holds {}, not {}", at, is, wanted);
     }
 
-    /// What should be there, and needs no job then; where it is not, `job` stands for it and says so.
-    Made there(const std::string& path, const char* what, std::string_view kind, Job job) {
+    /// Of weights, or of a training's folder; a training has weights once it has done an epoch.
+    static std::string fault_of_weights(std::string_view wanted, const std::string& at) try {
+        if (auto other = other_than(wanted, at); !other.empty()) return other;
+        const auto file = eval::weights_of(at);
+        return fault_of_file(file, [&](const hdf5::Reader& reader) {
+            ingest::refuse_other_file(reader, file.string(), wanted, "give a training or its weights");
+        });
+    } catch (const Error& e) {
+        return e.what();
+    }
+
+    /// What should be there, and needs no job then; where it is not, or `fault_of` finds one, `job` stands for it and says so.
+    template <typename Fault>
+    Made there(const std::string& path, const char* what, Job job, Fault fault_of) {
         const auto at = found(path, job);
-        if (job.problem.empty()) job.problem = other_than(kind, at);
+        if (job.problem.empty()) job.problem = fault_of(at);
         if (job.problem.empty()) return {{}, at};
         job.work = MissingWork{what, at};
         return {add(std::move(job)), at};
@@ -92,7 +133,8 @@ class Planner {
 
     /// Weights, or the folder of a training.
     Made ready_weights(const std::string& path, std::string_view kind, Job job) {
-        auto made = there(path, "weights", kind, std::move(job));
+        auto made = there(path, "weights", std::move(job),
+                          [&](const std::string& at) { return fault_of_weights(kind, at); });
         if (made.job) return made;
         try {
             made.contents = checksum_file(eval::weights_of(made.path));
@@ -109,6 +151,25 @@ class Planner {
             read_.insert(at);
         }
         return at;
+    }
+
+    /// The files that are there now are part of the fingerprint.
+    std::string with_listing(const std::string& path, Job& job) {
+        const auto at = found(path, job);
+        if (fs::exists(at)) contents_ += "|" + listing_of(at, out_);
+        return at;
+    }
+
+    /// The contents of a file that a word names, as in --labels=classes.csv, or of the weights in a folder, are part of the fingerprint.
+    void count_named(const std::string& word) {
+        const auto file = word.starts_with("-") ? word.substr(word.find('=') + 1) : word;
+        std::error_code ignored;
+        if (!fs::exists(file, ignored)) return;
+        try {
+            contents_ +=
+                "|" + checksum_file(fs::is_directory(file) ? eval::weights_of(file) : fs::path(file));
+        } catch (const Error&) {  // no file of the job's; or the job will say why
+        }
     }
 
     /// It may be one that comes with the program. Throws Error where there is none.
@@ -163,7 +224,8 @@ class Planner {
         job.kind = "ingest";
         job.title = "dataset " + name;
         if (!d.path.empty()) {
-            auto made = there(d.path, "dataset", ingest::own::dataset, std::move(job));
+            auto made = there(d.path, "dataset", std::move(job),
+                              [](const std::string& at) { return other_than(ingest::own::dataset, at); });
             if (!made.job) look_into(made);
             return made;
         }
@@ -173,7 +235,8 @@ class Planner {
         work.seed = d.seed;
         work.actions = d.actions;
         work.arguments = d.arguments;
-        for (const auto& raw : d.raw) work.raw.push_back(found(raw, job));
+        for (const auto& raw : d.raw) work.raw.push_back(with_listing(raw, job));
+        for (const auto& word : d.arguments) count_named(word);
         if (d.clips > 0) {
             job.amount = static_cast<double>(d.clips);
             job.pace = 300;  // written as text first
@@ -198,6 +261,7 @@ class Planner {
     std::size_t train(Job job, const std::string& config, const Settings& set, const Made& data) {
         need(job, data);
         TrainingWork work{job.kind, configuration(config, job), data.path, set};
+        for (const auto& [key, value] : set) count_named(value);
         job.amount =
             number_in(set, work.config, "epochs", 0) * data.clips / 2;  // a protocol trains on about half
         job.pace = training_pace(job.kind, set, work.config);
@@ -270,6 +334,19 @@ class Planner {
         return text_in(row.set, config, "train_split", "all");
     }
 
+    /// Each file is a repeat.
+    std::vector<std::string> ready_motions(const std::vector<std::string>& paths, Job& job) {
+        std::vector<std::string> files;
+        for (const auto& path : paths) {
+            files.push_back(with_contents(path, job));
+            if (job.problem.empty()) job.problem = fault_of_motions(files.back());
+        }
+        const auto again = given_twice(std::vector<fs::path>(files.begin(), files.end()));
+        if (again && job.problem.empty())
+            job.problem = fmt::format("{}: given twice in motions; each file is a repeat", again->string());
+        return files;
+    }
+
     PlannedRun planned_run(const PlannedRow& planned, std::uint64_t seed, const Made& data,
                            const Made& recogniser, const Made& single) {
         const auto& row = *planned.row;
@@ -298,7 +375,7 @@ class Planner {
         }
         for (const auto& made : {data, recogniser, single, made_with}) need(job, made);
         if (!row.motions.empty()) {
-            for (const auto& motions : row.motions) work.motions.push_back(with_contents(motions, job));
+            work.motions = ready_motions(row.motions, job);
             run.motions = work.motions.front();  // as the features that are kept
         }
         job.amount = static_cast<double>(row.repeats * row.per_class);
@@ -311,7 +388,7 @@ class Planner {
     }
 
     const Sweep& sweep_;
-    fs::path beside_;
+    fs::path beside_, out_;
     const JobRunner& runner_;
     std::string contents_;        ///< checksums of the files that the next job reads
     std::set<std::string> read_;  ///< their paths
@@ -320,8 +397,8 @@ class Planner {
 
 }  // namespace
 
-Plan make_plan(const Sweep& sweep, const fs::path& beside, const JobRunner& runner) {
-    return Planner(sweep, beside, runner).plan();
+Plan make_plan(const Sweep& sweep, const fs::path& beside, const fs::path& out, const JobRunner& runner) {
+    return Planner(sweep, beside, out, runner).plan();
 }
 
 std::string filled_in(std::string path, const fs::path& out, const Job& job) {

@@ -27,10 +27,12 @@ struct Plan {
     std::vector<PlannedRow> rows;
 };
 
-/// `sweep` must outlive the plan. Reads the configurations, whose contents are part of the fingerprints, as are the program's
-/// version and the work's identity. Relative paths are those of the current folder, else of `beside`. What is missing becomes the
-/// problem of the jobs that need it.
-Plan make_plan(const Sweep& sweep, const std::filesystem::path& beside, const JobRunner& runner);
+/// `sweep` must outlive the plan. Reads the configurations: their contents are part of the fingerprints, as are those of other files that
+/// the work names, which raw files there are (see listing_of), the program's version and the work's identity. Relative paths are those of the
+/// current folder, else of `beside`. `out` is the sweep's folder, which may lie among raw files. What is missing becomes the problem of the
+/// jobs that need it.
+Plan make_plan(const Sweep& sweep, const std::filesystem::path& beside, const std::filesystem::path& out,
+               const JobRunner& runner);
 
 /// `path` with {out} and {job} put in.
 std::string filled_in(std::string path, const std::filesystem::path& out, const Job& job);

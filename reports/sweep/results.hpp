@@ -2,7 +2,7 @@
 //
 //   OUT/results.json            written anew whenever a job ends, whole or not at all; what a report is made of:
 //     {"format": 1, "sweep": name, "version": .., "comparison": true of one, "tables": of its own, YAML as in the sweep's file, "rows": [
-//        {"name", "status": "done" | "failed" | "waiting", "why": of a failure,
+//        {"name", "status": "done" | "failed" (a run did; others may go on) | "waiting", "why": of a failure,
 //         "fills": ["table3/full/NTU-1P", ..], "dataset": the sweep's name of it, "data": {"synthetic":
 //         clips, "seed"} or {"raw": [files]} or {"path"}, "split", "settings": {key: value},
 //         "runs": [{"seed", "status", "why", "scores", "features": folder of real.h5 and generated.h5, "motions", "run":

@@ -47,7 +47,8 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
                         const std::vector<std::string>& sbatch_words,
                         const std::function<void(const Job& job, const std::string& why)>& again = {});
 
-/// Ids of the jobs submitted from OUT that wait or run in Slurm; none where nothing was submitted or squeue does not answer.
+/// Ids of the jobs submitted from OUT that wait or run in Slurm; none where nothing was submitted or squeue does not answer. Writes nothing
+/// there.
 std::optional<std::set<std::string>> jobs_in_slurm(const std::filesystem::path& out);
 
 }  // namespace actformer::reports

@@ -9,6 +9,7 @@
 #include "base/checksum/checked_json.hpp"
 #include "base/error.hpp"
 #include "base/files/file.hpp"
+#include "base/files/scratch.hpp"
 #include "base/process/interruption.hpp"
 #include "base/process/process.hpp"
 #include "base/text/loose_json.hpp"
@@ -78,9 +79,8 @@ void take_line(const std::string& line, const std::string& own, Queue& queue) {
 
 /// What squeue tells; none where it does not answer. Left out are jobs that are over but for the tidying up, and those that wait for
 /// what failed, which Slurm is about to drop.
-std::optional<Queue> queue(const fs::path& out, std::string& why) {
-    const auto said =
-        answer_of({"squeue", "--noheader", "--me", "--format", "%i|%t|%r|%k"}, out / "slurm.log");
+std::optional<Queue> queue(const fs::path& out, const fs::path& log, std::string& why) {
+    const auto said = answer_of({"squeue", "--noheader", "--me", "--format", "%i|%t|%r|%k"}, log);
     why = said.why;
     if (said.exit != 0) return {};
     const auto own = comment_of_jobs(out);
@@ -128,7 +128,8 @@ std::optional<std::set<std::string>> jobs_in_slurm(const fs::path& out) {
     if (!fs::exists(out / "slurm.json")) return {};
     const auto before = submitted_before(out);
     std::string why;
-    const auto now = queue(out, why);
+    const Scratch scratch("squeue");  // `out` may be another user's
+    const auto now = queue(out, scratch.path() / "log", why);
     if (!now) return {};
     std::set<std::string> ids;
     for (const auto& [id, number] : before.items())
@@ -148,7 +149,7 @@ std::size_t submit_plan(const Sweep& sweep, const Plan& plan, const SweepOptions
     if (!lock) safe_points.stop("another process submits the sweep's jobs");
     auto numbers = submitted_before(options.out);
     std::string why;
-    const auto queued = queue(options.out, why);
+    const auto queued = queue(options.out, options.out / "slurm.log", why);
     if (!queued && safe_points.asked()) safe_points.stop("nothing submitted");
     if (!queued) throw Error("{}", refusal("squeue", why));
     for (const auto& [id, number] : queued->ours)

@@ -3,12 +3,13 @@
 #include <yaml-cpp/depthguard.h>
 
 #include <algorithm>
-#include <set>
 
 #include "base/files/file.hpp"
 #include "base/files/regular_file.hpp"
+#include "base/text/printable.hpp"
 #include "base/text/suggestion.hpp"
 #include "base/text/utf8.hpp"
+#include "base/text/yaml.hpp"
 #include "ingest/formats/formats.hpp"
 #include "reports/sweep/configuration.hpp"
 #include "reports/tables/own_tables.hpp"
@@ -21,6 +22,12 @@ using Place = YamlPlace;
 
 /// An entry's keys with those of what it is like, each with the node that says it.
 using Entry = std::map<std::string, Node>;
+
+/// Whether an entry says anything of a key: `split: ~` does not.
+bool says(const Entry& entry, const std::string& key) {
+    const auto found = entry.find(key);
+    return found != entry.end() && !found->second.IsNull();
+}
 
 /// A setting of `above` without a value takes the one below away.
 Node joined_settings(const Node& below, const Node& above) {
@@ -43,6 +50,12 @@ void lay_over(Entry& entry, const std::string& key, const Node& value) {
     entry.emplace(key, node);
 }
 
+/// Of an entry's settings too each key once, before they are joined with others.
+void expect_entry(const Place& place, const Node& node, const std::string& what) {
+    place.expect_map(node, what);
+    if (const auto set = node["set"]; set && set.IsMap()) place.expect_keys_once(set, what + ", set");
+}
+
 /// One section's entries with `like` resolved.
 class Section {
   public:
@@ -62,10 +75,10 @@ class Section {
                                     "in base",
                                     name_, deepest));
         const auto own = node_[name];
-        place_.expect_map(own, fmt::format("{}: '{}'", name_, name));
+        expect_entry(place_, own, fmt::format("{}: '{}'", name_, name));
         path_.push_back(name);
         Entry out = base_;
-        if (const auto like = own["like"]) {
+        if (const auto like = own["like"]; like && !like.IsNull()) {
             const auto other = place_.as<std::string>(like, "like", "a name");
             if (!node_[other])
                 place_.fail(like, fmt::format("{}: there is no '{}' to be like{}", name_, other,
@@ -122,8 +135,9 @@ class Taker {
         take(key, [&](const Node& n) {
             place_.expect_map(n, fmt::format("'{}'", key));
             for (const auto& item : n)
-                to[item.first.Scalar()] =
-                    place_.as<std::string>(item.second, item.first.Scalar(), "one value");
+                if (!item.second.IsNull())
+                    to[item.first.Scalar()] =
+                        place_.as<std::string>(item.second, item.first.Scalar(), "one value");
         });
     }
     void end(const std::string& of) {
@@ -139,7 +153,7 @@ class Taker {
         known_.emplace_back(key);
         const auto found = entry_.find(key);
         if (found == entry_.end()) return;
-        use(found->second);
+        if (!found->second.IsNull()) use(found->second);
         entry_.erase(found);
     }
 
@@ -160,15 +174,38 @@ void check_format(const Place& place, const Node& where, const std::string& data
 /// Keys that say nothing of a dataset that is `there` by that key.
 void refuse_beside(const Place& place, const std::string& name, const Entry& entry, const char* there,
                    std::initializer_list<const char*> keys) {
-    if (!entry.contains(there)) return;
+    if (!says(entry, there)) return;
     for (const char* key : keys)
-        if (const auto found = entry.find(key); found != entry.end())
-            place.fail(found->second, fmt::format("dataset '{}': '{}' says nothing beside '{}'; leave it out",
+        if (says(entry, key))
+            place.fail(entry.at(key), fmt::format("dataset '{}': '{}' says nothing beside '{}'; leave it out",
                                                   name, key, there));
 }
 
+/// A setting that is overwritten by what the entry's key `instead` says.
+void refuse_in_set(const Place& place, const std::string& of, const Entry& entry, const char* setting,
+                   const char* instead) {
+    const auto set = entry.find("set");
+    if (set == entry.end() || !set->second.IsMap()) return;
+    if (const auto said = set->second[setting]; said && !said.IsNull())
+        place.fail(said,
+                   fmt::format("{}: '{}' says nothing in 'set'; say {} beside it", of, setting, instead));
+}
+
+/// Motions that are there need no generator. A configuration may come from the base, or from the row that this one is like.
+void refuse_beside_motions(const Place& place, const Node& own, const std::string& name, const Entry& entry) {
+    if (!says(entry, "motions")) return;
+    const auto refuse = [&](const Node& node, const char* key) {
+        place.fail(node,
+                   fmt::format("row '{}': '{}' says nothing beside 'motions'; leave one of them out (`~` "
+                               "takes an inherited one away)",
+                               name, key));
+    };
+    if (says(entry, "weights")) refuse(entry.at("weights"), "weights");
+    if (const auto config = own["config"]; config && !config.IsNull()) refuse(config, "config");
+}
+
 SweepDataset dataset(const Place& place, const Node& where, const std::string& name, Entry entry) {
-    refuse_beside(place, name, entry, "path", {"format", "arguments", "seed", "actions"});
+    refuse_beside(place, name, entry, "path", {"format", "arguments", "seed", "actions", "use"});
     refuse_beside(place, name, entry, "raw", {"seed", "actions"});
     Taker take(place, std::move(entry));
     SweepDataset out;
@@ -188,6 +225,7 @@ SweepDataset dataset(const Place& place, const Node& where, const std::string& n
 }
 
 SweepRecogniser recogniser(const Place& place, const Node& where, const std::string& name, Entry entry) {
+    refuse_in_set(place, fmt::format("recogniser '{}'", name), entry, "data", "data");
     Taker take(place, std::move(entry));
     SweepRecogniser out;
     take.text("data", out.data);
@@ -201,6 +239,9 @@ SweepRecogniser recogniser(const Place& place, const Node& where, const std::str
 }
 
 SweepRow row(const Place& place, const Node& where, const std::string& name, Entry entry) {
+    for (const auto& [setting, instead] : {std::pair{"seed", "seeds"}, {"data", "data"}})
+        refuse_in_set(place, fmt::format("row '{}'", name), entry, setting, instead);
+    refuse_beside_motions(place, where, name, entry);
     Taker take(place, std::move(entry));
     SweepRow out;
     out.name = name;
@@ -245,10 +286,8 @@ void each(const Place& place, const Node& root, const std::string& name, const E
     if (!node) return;
     place.expect_map(node, name);
     Section section(place, node, name, base);
-    std::set<std::string> seen;
     for (const auto& item : node) {
         const auto key = item.first.Scalar();
-        if (!seen.insert(key).second) place.fail(item.first, fmt::format("{}: '{}' comes twice", name, key));
         use(key, item.second, section.entry(key));
     }
 }
@@ -316,6 +355,7 @@ Sweep read_sweep(const std::filesystem::path& file) {
     const auto root = load(file);
     const std::vector<std::string> known{"name", "datasets", "recognisers", "base", "tables", "rows"};
     if (!root.IsMap()) throw Error("{}: holds no sweep: {}", file.string(), fmt::join(known, ", "));
+    place.expect_keys_once(root, "a sweep");
     for (const auto& item : root) {
         const auto key = item.first.Scalar();
         if (std::ranges::find(known, key) == known.end())
@@ -323,8 +363,10 @@ Sweep read_sweep(const std::filesystem::path& file) {
                                                suggestion(key, known), fmt::join(known, ", ")));
     }
     Sweep out;
-    out.name = root["name"] ? place.as<std::string>(root["name"], "name", "a text") : file.stem().string();
-    if (root["base"]) place.expect_map(root["base"], "base");
+    const auto own_name = root["name"];
+    out.name = own_name && !own_name.IsNull() ? place.as<std::string>(own_name, "name", "a text")
+                                              : printable(file.stem().string());  // as results tell it
+    if (root["base"]) expect_entry(place, root["base"], "base");
     each(place, root, "datasets", {}, [&](const std::string& name, const Node& node, Entry entry) {
         out.datasets[name] = dataset(place, node, name, std::move(entry));
     });

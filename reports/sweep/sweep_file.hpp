@@ -33,7 +33,7 @@ struct SweepRow {
     std::string name, data, recogniser, single_recogniser, config;
     std::string weights;  ///< of a generator, or the folder of its training; in place of `config`
     std::vector<std::string>
-        motions;  ///< in place of a generator, whatever `config` and `weights` say: each file a repeat
+        motions;  ///< in place of a generator, whatever `config` says: each file a repeat
     Settings set;
     std::vector<std::uint64_t> seeds{0, 1, 2};
     std::uint64_t repeats = 20, per_class = 100, window = 60;
@@ -67,8 +67,10 @@ struct Sweep {
 ///     gaussian: {like: full, set: {prior: gaussian}, fills: [table3/Gaussian prior/NTU-1P]}
 ///
 /// An entry takes what it does not say from the one it is `like` (of its own section), a row without `like` from `base`; `set` is
-/// taken key by key (`width: ~` takes a width away, as a row of another method must), `fills` not at all. Throws Error naming file and line: unknown keys, values of another kind, a circle of
-/// `like`, names that nothing has, unknown cells, a cell filled twice.
+/// taken key by key (`width: ~` takes a width away, as a row of another method must), `fills` not at all. A key without a value
+/// (`split: ~`) is not said: it takes what is inherited away. Throws Error naming file and line: unknown keys, keys that are given twice,
+/// keys and settings that say nothing beside others, values of another kind, a circle of `like`, names that nothing has, unknown cells, a
+/// cell filled twice.
 Sweep read_sweep(const std::filesystem::path& file);
 
 }  // namespace actformer::reports

@@ -72,23 +72,20 @@ class TableReader {
         return out;
     }
     void check_keys(const Node& map, const std::vector<std::string>& known) const {
-        std::set<std::string> seen;
         for (const auto& item : map) {
             const auto key = item.first.Scalar();
             if (std::ranges::find(known, key) == known.end())
                 place_.fail(item.first,
                             fmt::format("there is no key '{}'; there are {}", key, fmt::join(known, ", ")));
-            check_new(item.first, key, seen);
         }
     }
     void check_new(const Node& where, const std::string& name, std::set<std::string>& seen) const {
         if (!seen.insert(name).second) place_.fail(where, fmt::format("'{}' comes twice", name));
     }
     /// As a part of a cell's name.
-    void check_name(const Node& where, const std::string& name, std::set<std::string>& seen) const {
+    void check_name(const Node& where, const std::string& name) const {
         if (name.empty() || name.find('/') != std::string::npos)
             place_.fail(where, fmt::format("'{}': a name must not be empty nor hold a /", name));
-        check_new(where, name, seen);
     }
 
     Node needed(const char* key) const {
@@ -146,7 +143,8 @@ class TableReader {
         if (!node["dataset"] || !node["metrics"]) place_.fail(node, "a column must say dataset and metrics");
         PaperColumns column;
         column.dataset = place_.as<std::string>(node["dataset"], "dataset", "a text");
-        check_name(node, column.dataset, seen);
+        check_name(node, column.dataset);
+        check_new(node, column.dataset, seen);
         place_.expect_list(node["metrics"], "metrics");
         std::set<std::string> metrics;
         for (const auto& name : node["metrics"]) {
@@ -168,11 +166,10 @@ class TableReader {
         const auto rows = needed("rows");
         place_.expect_map(rows, "rows");
         take_room(rows);
-        std::set<std::string> seen;
         for (const auto& item : rows) {
             PaperRow row;
             row.name = item.first.Scalar();
-            check_name(item.first, row.name, seen);
+            check_name(item.first, row.name);
             place_.expect_map(item.second, fmt::format("row '{}'", row.name));
             check_keys(item.second, datasets());
             for (const auto& column : table_.columns)

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <set>
 #include <string>
 
 #include "base/error.hpp"
@@ -16,20 +17,29 @@ struct YamlPlace {
     [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const {
         throw Error("{}: line {}: {}", file, node.Mark().line + 1, what);
     }
+    /// With each key once.
     void expect_map(const YAML::Node& node, const std::string& what) const {
         if (!node.IsMap()) fail(node, what + " must be a map of keys and values");
+        expect_keys_once(node, what);
+    }
+    /// Of a key that is given twice one reader would take the first value and another the last.
+    void expect_keys_once(const YAML::Node& map, const std::string& what) const {
+        std::set<std::string> seen;
+        for (const auto& item : map)
+            if (!seen.insert(item.first.Scalar()).second)
+                fail(item.first, fmt::format("{}: '{}' is given twice", what, item.first.Scalar()));
     }
     void expect_list(const YAML::Node& node, const std::string& what) const {
         if (!node.IsSequence()) fail(node, what + " must be a list");
     }
-    /// `kind` says what it must be: "a whole number".
+    /// `kind` says what it must be: "a whole number". Nothing (`~`) is of no kind; the library takes it for the text "null".
     template <typename T>
     T as(const YAML::Node& node, const std::string& key, const char* kind) const {
         try {
-            return node.as<T>();
-        } catch (const YAML::Exception&) {
-            fail(node, fmt::format("'{}' must be {}", key, kind));
+            if (!node.IsNull()) return node.as<T>();
+        } catch (const YAML::Exception&) {  // of another kind
         }
+        fail(node, fmt::format("'{}' must be {}", key, kind));
     }
 };
 

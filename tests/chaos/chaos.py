@@ -62,7 +62,7 @@ recognisers:
 base: {data: one, recogniser: one, config: generator.yaml, split: xsub/train, repeats: 2, per_class: 2, set: {epochs: 3}}
 rows:
   a: {fills: [table3/full/NTU-1P]}
-  b: {set: {seed: 5}}
+  b: {seeds: [5]}
 """
 
 

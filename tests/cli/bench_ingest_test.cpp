@@ -9,6 +9,12 @@
 
 using namespace actformer::test;
 
+TEST(BenchIngest, TakesNoSizeThatIsNoNumber) {
+    for (const std::string option : {"motions --gigabytes", "babel --hours", "babel --many-hours"})
+        expect_refused(run_actformer("bench ingest --format " + option + " nan"),
+                       {": 'nan' is not a number from 0"});
+}
+
 // No shell is between: whatever a path holds arrives whole.
 TEST(BenchIngest, HandsPathsToThePeerAsTheyAre) {
     const TempDir dir;

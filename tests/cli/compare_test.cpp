@@ -67,7 +67,14 @@ TEST_F(Compare, TakesDifferencesSeedBySeed) {
     double mean = 0, squares = 0;
     for (std::size_t i = 0; i < 3; ++i) mean += (b[i] - a[i]) / 3;
     for (std::size_t i = 0; i < 3; ++i) squares += std::pow(b[i] - a[i] - mean, 2) / 2;
-    const auto found = json_in(result.output)["metrics"]["fid_whole"];
+    const auto json = json_in(result.output);
+    EXPECT_EQ(json["a"], at("one/weights-last.h5"));
+    EXPECT_EQ(json["b"], at("other/weights-last.h5"));
+    EXPECT_EQ(json["recogniser"], at("r"));
+    EXPECT_EQ(json["real"], toy().string());
+    EXPECT_EQ(json["split"], "s/train");
+    EXPECT_EQ(json["repeats"], 3);
+    const auto found = json["metrics"]["fid_whole"];
     // Student's quantile for two degrees of freedom is 4.30265; scores keep all digits.
     const double half = 4.30265 * std::sqrt(squares / 3);
     EXPECT_NEAR(found["difference"]["mean"], mean, 1e-9 * std::abs(mean));
@@ -139,10 +146,11 @@ TEST_F(Compare, TakesMotionsAndSaysThatOneRepeatTellsNothingOfChance) {
     EXPECT_EQ(result.output.find(" is better"), std::string::npos) << result.output;
 
     copy_with_odd_split(toy(), dir / "odd");
-    const auto odd =
-        run_actformer("compare " + at("one.h5") + " " + at("other.h5") + " --recogniser " + at("r") +
-                      " --real " + at("odd") + " --split '" + odd_split + "' --window 20 -o " + at("of-odd"));
+    const auto odd = run_actformer("compare " + at("one.h5") + " " + at("other.h5") + " --recogniser " +
+                                   at("r") + " --real " + at("odd") + " --split '" + odd_split +
+                                   "' --window 20 --json -o " + at("of-odd"));
     ASSERT_EQ(odd.exit, 0) << odd.output;
+    EXPECT_EQ(json_in(odd.output)["repeats"], 1);
     EXPECT_EQ(Json::parse(read_file(dir / "of-odd/results.json"))["rows"][0]["split"], odd_split_in_json);
 
     const auto mixed = compare("one", "other.h5", "mixed");

@@ -125,6 +125,14 @@ TEST_F(ReportPage, TablesComeInEveryForm) {
     EXPECT_NE(read_file(dir / "t.tex").find("\nfull & "), std::string::npos);
 }
 
+TEST_F(ReportPage, NamesEveryFileThatItWrote) {
+    const auto result = report("--csv " + at("t.csv") + " --latex " + at("t.tex"));
+    ASSERT_EQ(result.exit, 0) << result.output;
+    for (const auto* name : {"t.csv", "t.tex"})
+        EXPECT_NE(result.output.find(at(name) + ": 14 figures measured in 4 rows, "), std::string::npos)
+            << result.output;
+}
+
 TEST_F(ReportPage, SaysOfAnUntrainedRecogniserThatItIsNearChance) {
     const auto result = report("-o " + at("r.html") + " --json --csv " + at("t.csv") + " --latex " +
                                at("t.tex") + " 2>/dev/null");
@@ -165,6 +173,27 @@ TEST_F(ReportPage, IsWrittenAnewUntilTheSweepIsDone) {
     EXPECT_NE(result.output.find("8 figures measured"), std::string::npos) << result.output;
     EXPECT_NE(result.output.find("14 figures measured"), std::string::npos) << result.output;
     EXPECT_NE(read_file(dir / "first.html"), read_file(dir / "r.html"));
+}
+
+TEST_F(ReportPage, IsWrittenAnewWhileOtherSeedsOfAFailedRowRun) {
+    fs::copy(swept().at("out"), dir / "out", fs::copy_options::recursive);
+    const auto results = dir / "out/results.json";
+    fs::copy(results, dir / "done.json");
+    auto json = nlohmann::ordered_json::parse(read_file(results));
+    auto& row = json["rows"][3];
+    ASSERT_EQ(row["status"], "failed");
+    auto other = row["runs"][0];
+    other["status"] = "running";
+    row["runs"].push_back(other);
+    write_file(results, with_checksum(json).dump());
+    const auto result = run_command("cd " + at("") + "; " + program() +
+                                    " report out -o r.html --watch 1 & until [ -e r.html ] || ! kill -0 $!; "
+                                    "do sleep 0.1; done; mv done.json out/results.json; wait $!");
+    ASSERT_EQ(result.exit, 0) << result.output;
+    const std::string written = "r.html: 14 figures measured";
+    const auto first = result.output.find(written);
+    ASSERT_NE(first, std::string::npos) << result.output;
+    EXPECT_NE(result.output.find(written, first + 1), std::string::npos) << result.output;
 }
 
 TEST_F(ReportPage, StaysSmallHoweverManyMotions) {
@@ -208,11 +237,14 @@ TEST_F(ReportPage, KnowsATrainingBeforeItsFirstEpochAndWhateverItIsCalled) {
     for (const auto* name : {"a/run", "b/run"}) write_file(dir / name / "config.yaml", "model: csgn\n");
     expect_refused(run_actformer("report " + at("a/run") + " -o " + at("r.html")), {"a/run", "a training"});
     const auto held = FileLock::if_free(dir / "a/run/lock"), other = FileLock::if_free(dir / "b/run/lock");
-    const auto result = run_command("cd " + at("a/run") + " && " + program() +
-                                    " report . ../run ../../b/run -o " + at("r.html"));
+    const auto report_of = [&](const std::string& folders) {
+        return run_command("cd " + at("a/run") + " && " + program() + " report " + folders + " -o " +
+                           at("r.html"));
+    };
+    expect_refused(report_of(". ../../b/run ../run"), {"../run: given twice; name each folder once"});
+    const auto result = report_of(". ../../b/run");
     ASSERT_EQ(result.exit, 0) << result.output;
-    EXPECT_NE(result.output.find("r.html: curves of 2 trainings, "), std::string::npos)
-        << "one of them was given twice: " << result.output;
+    EXPECT_NE(result.output.find("r.html: curves of 2 trainings, "), std::string::npos) << result.output;
     const auto html = read_file(dir / "r.html");
     EXPECT_NE(html.find("\"name\":\"run\""), std::string::npos);
     EXPECT_NE(html.find("b/run\""), std::string::npos) << "a name that is taken becomes the path";
@@ -264,6 +296,9 @@ TEST_F(ReportPage, RefusesWhatIsNoSweepAndSaysWhy) {
     write_file(dir / "cut/results.json", "{\"rows\": [");
     expect_refused(run_actformer("report " + at("cut") + " -o " + at("r.html")), {"results.json", "damaged"});
     expect_refused(report(""), {"nothing to write"});
+    expect_refused(report(swept().at("out") + to), {"out: given twice; name each folder once"});
+    expect_refused(report("--json --motion-megabytes nan"),
+                   {"--motion-megabytes: 'nan' is not a number from 0 to 1000"});
     expect_refused(report("-o " + at("no/such/folder/r.html")), {"no/such/folder"});
     EXPECT_FALSE(fs::exists(dir / "r.html"));
 }

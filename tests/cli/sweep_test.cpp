@@ -11,6 +11,7 @@
 #include "tests/support/replaced.hpp"
 #include "tests/support/sweep.hpp"
 #include "tests/support/toy_dataset.hpp"
+#include "tests/support/tree.hpp"
 
 using namespace actformer::test;
 namespace fs = std::filesystem;
@@ -103,6 +104,22 @@ TEST_F(Sweep, RowsLeaveWhatTheyAreLikeAlone) {
     EXPECT_EQ(results()["rows"][3]["dataset"], "one");
 }
 
+TEST_F(Sweep, AKeyWithoutAValueIsNotSaid) {
+    sweep_file(
+        "  full: {split: ~, repeats: ~, device: ~, fills: ~, set: {device: ~, epochs: ~}}\n"
+        "  bare: {like: ~, set: ~}\n");
+    write_file(dir / "sweep.yaml",
+               replaced(read_file(dir / "sweep.yaml"), "seeds: [0]", "seeds: [0], device: cpu, split: here"));
+    ASSERT_EQ(sweep().exit, 0);
+    EXPECT_EQ(calls_of("null"), 0);
+    EXPECT_EQ(calls_of("device="), 0);
+    EXPECT_EQ(calls_of("epochs="), 1) << "the recogniser's";
+    EXPECT_EQ(calls_of("--repeats 20 "), 1) << "not the base's 3";
+    EXPECT_EQ(calls_of("--split all "), 1);
+    EXPECT_EQ(calls_of("--split here "), 1) << "of the other row";
+    EXPECT_EQ(calls_of("--device cpu"), 1) << "of the other row";
+}
+
 TEST_F(Sweep, GeneratesWhereItTrains) {
     sweep_file("  full: {set: {device: cuda}, fills: [table3/full/NTU-1P]}\n");
     ASSERT_EQ(sweep().exit, 0);
@@ -128,6 +145,21 @@ TEST_F(Sweep, ARowThatFailsStopsNoOther) {
     ASSERT_EQ(sweep().exit, 0);
     EXPECT_EQ(calls().size(), before + 3) << "generator, motions and scores of that row alone";
     EXPECT_EQ(results()["rows"][1]["status"], "done");
+}
+
+TEST_F(Sweep, TellsNoTimeOfJobsThatFailed) {
+    sweep_file(two_rows);
+    write_file(dir / "broken", "prior=gaussian");
+    ASSERT_EQ(sweep().exit, 1);
+    const auto status = sweep("--status --json");
+    ASSERT_EQ(status.exit, 0) << status.output;
+    const auto json = Json::parse(status.output);
+    std::size_t failed = 0;
+    for (const auto& job : json["jobs"]) {
+        failed += job["state"] == "failed";
+        EXPECT_EQ(job.contains("seconds"), job["state"] == "done") << job;
+    }
+    EXPECT_EQ(failed, 3U) << "the generator, its motions and its scores";
 }
 
 TEST_F(Sweep, ManyHandsTellOfEveryFailure) {
@@ -260,6 +292,7 @@ TEST_F(Sweep, RefusesDatasetsThatCannotBeMade) {
         EXPECT_NE(result.output.find(why), std::string::npos) << result.output;
     }
     for (const auto& [dataset, why] : {std::pair{"{path: out, seed: 3}", "'seed' says nothing beside 'path'"},
+                                       {"{path: out, use: ntu-1p}", "'use' says nothing beside 'path'"},
                                        {"{raw: out, actions: 1-3}", "'actions' says nothing beside 'raw'"}})
         actformer::test::expect_refused(with(dataset), {"sweep.yaml: line 3", why});
 }
@@ -339,6 +372,34 @@ TEST_F(Sweep, ScoresAgainWhereADatasetThatIsThereChanged) {
     EXPECT_EQ(scorings(), 2);
 }
 
+TEST_F(Sweep, IngestsAgainWhereRawFilesOrAFileThatItNamesChanged) {
+    fs::create_directory(dir / "takes");
+    write_file(dir / "takes/a.bvh", "a walk");
+    write_file(dir / "names.csv", "a,walk");
+    write_file(dir / "mine.h5", "weights");
+    write_file(
+        dir / "sweep.yaml",
+        fmt::format("datasets:\n  d: {{format: bvh, raw: [takes], arguments: [--labels, {0}/names.csv]}}\n"
+                    "recognisers:\n  r: {{data: d, config: r.yaml}}\n"
+                    "rows:\n  a: {{data: d, recogniser: r, config: g.yaml, seeds: 0, set: {{recogniser: "
+                    "{0}/mine.h5}}}}\n",
+                    dir.path().string()));
+    using Calls = std::pair<long, long>;  // of ingests and trainings
+    const auto calls = [&] {
+        const auto result = sweep();
+        EXPECT_EQ(result.exit, 0) << result.output;
+        return Calls{calls_of("ingest bvh"), calls_of("train generator")};
+    };
+    EXPECT_EQ(calls(), Calls(1, 1));
+    EXPECT_EQ(calls(), Calls(1, 1));
+    write_file(dir / "takes/b.bvh", "a run");
+    EXPECT_EQ(calls(), Calls(2, 2)) << "a recording more";
+    write_file(dir / "names.csv", "a,stroll");
+    EXPECT_EQ(calls(), Calls(3, 3)) << "another label";
+    write_file(dir / "mine.h5", "others");
+    EXPECT_EQ(calls(), Calls(3, 4)) << "another recogniser that chooses weights";
+}
+
 TEST_F(Sweep, EndsInOneLineWhereItsResultsCannotBeWritten) {
     sweep_file(two_rows);
     write_file(dir / "actformer",
@@ -401,6 +462,15 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
     expect_refused({"line 9", "seed 0 twice"});
     sweep_file("  a: {repeats: 0}\n");
     expect_refused({"'repeats'", "at least 1"});
+    sweep_file("  a: {set: {seed: 7}}\n");
+    expect_refused({"line 9", "row 'a': 'seed' says nothing in 'set'; say seeds beside it"});
+    sweep_file("  a: {set: {data: two}}\n");
+    expect_refused({"line 9", "row 'a': 'data' says nothing in 'set'; say data beside it"});
+    sweep_file("  a: {fills: [~]}\n");
+    expect_refused({"line 9", "'fills' must be cells"});
+    write_file(dir / "sweep.yaml",
+               "recognisers:\n  r: {data: d, config: r.yaml, set: {seed: 3, data: e}}\nrows:\n  a: {}\n");
+    expect_refused({"line 2", "recogniser 'r': 'data' says nothing in 'set'"});
     sweep_file("  a: {data: three}\n");
     expect_refused({"line 9", "no dataset 'three'"});
     write_file(dir / "sweep.yaml", "datasets:\n  one: {raw: [x], format: bhv}\nrows:\n  a: {}\n");
@@ -410,7 +480,7 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
     sweep_file("  a: 3\n");
     expect_refused({"line 9", "must be a map"});
     sweep_file("  a: {}\n  a: {}\n");
-    expect_refused({"'a' comes twice"});
+    expect_refused({"line 10: rows: 'a' is given twice"});
     sweep_file("  a: [\n");
     expect_refused({"sweep.yaml", "line"});
     write_file(dir / "sweep.yaml", "name: nothing\n");
@@ -419,6 +489,53 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
     expect_refused({"holds no sweep"});
     fs::remove(dir / "sweep.yaml");
     expect_refused({"sweep.yaml", "no such file"});
+}
+
+TEST_F(Sweep, RefusesKeysGivenTwice) {
+    sweep_file("  a: {split: here, split: there}\n");
+    expect_refused({"sweep.yaml: line 9: rows: 'a': 'split' is given twice"});
+    sweep_file("  a: {set: {batch: 1, batch: 2}}\n");
+    expect_refused({"line 9: rows: 'a', set: 'batch' is given twice"});
+    sweep_file("  a: {}\n", "name: other\n");
+    expect_refused({"line 8: a sweep: 'name' is given twice"});
+    sweep_file("  a: {}\n", "tables:\n  table1: {rows: {A: {}}}\n  table1: {rows: {B: {}}}\n");
+    expect_refused({"line 10: tables: 'table1' is given twice"});
+    const auto with_base = [&](const std::string& keys, const std::string& others) {
+        sweep_file("  a: {set: {batch: 1}}\n");
+        write_file(dir / "sweep.yaml", replaced(read_file(dir / "sweep.yaml"), keys, others));
+    };
+    with_base("repeats: 3", "repeats: 3, repeats: 4");
+    expect_refused({"line 7: base: 'repeats' is given twice"});
+    with_base("set: {epochs: 5}", "set: {epochs: 5, epochs: 6}");
+    expect_refused({"line 7: base, set: 'epochs' is given twice"});
+}
+
+TEST_F(Sweep, RefusesWhatSaysNothingBesideMotions) {
+    for (const auto* name : {"m.h5", "w.h5"}) write_file(dir / name, "another tool's");
+    sweep_file("  a: {motions: m.h5, weights: w.h5}\n");
+    expect_refused({"line 9: row 'a': 'weights' says nothing beside 'motions'; leave one of them out"});
+    sweep_file("  a: {motions: m.h5, config: g.yaml}\n");
+    expect_refused({"line 9: row 'a': 'config' says nothing beside 'motions'"});
+    sweep_file("  a: {weights: w.h5}\n  b: {like: a, motions: m.h5}\n");
+    expect_refused({"row 'b': 'weights' says nothing beside 'motions'", "`~` takes an inherited one away"});
+    sweep_file("  a: {weights: w.h5}\n  b: {like: a, weights: ~, motions: m.h5}\n");
+    const auto plan = sweep("--dry-run");
+    EXPECT_EQ(plan.exit, 0) << "the base's config may stay: " << plan.output;
+}
+
+TEST_F(Sweep, RefusesAProgramThatCannotBeRun) {
+    sweep_file("  full: {}\n");
+    const auto with = [&](const std::string& named) {
+        return run_command("PATH=" + at("bin") + ":$PATH " + program() + " sweep " + at("sweep.yaml") +
+                           " -o " + at("out") + " --dry-run --program " + named);
+    };
+    for (const auto& named : {std::string("/nope"), at("sweep.yaml"), at("")})
+        actformer::test::expect_refused(with(named), {"--program: " + named + " cannot be run"});
+    actformer::test::expect_refused(with("no-actformer"), {"no program no-actformer in PATH"});
+    fs::create_directory(dir / "bin");
+    fs::copy(dir / "actformer", dir / "bin/my-actformer");
+    EXPECT_EQ(with("my-actformer").exit, 0);
+    EXPECT_EQ(with(at("actformer")).exit, 0);
 }
 
 TEST_F(Sweep, NamesAreOnlyText) {
@@ -446,6 +563,19 @@ TEST_F(Sweep, GoesThroughSlurm) {
     EXPECT_EQ(results()["rows"][1]["status"], "done") << read_file(dir / "bin/said");
     EXPECT_EQ(calls().size(), 9U);
     EXPECT_NE(sweep("--status").output.find("2 of 2 rows done"), std::string::npos);
+}
+
+TEST_F(Sweep, TellsHowFarItIsAndWritesNothing) {
+    sweep_file(two_rows);
+    slurm_stand_in("", "echo slow today >&2");
+    ASSERT_EQ(with_slurm("--slurm").exit, 0);
+    const auto before = tree(dir / "out");
+    sweep_file(std::string(two_rows) + "  third: {like: full, set: {epochs: 6}}\n");
+    for (const auto* option : {"--status", "--status --json", "--dry-run"}) {
+        const auto result = with_slurm(option);
+        EXPECT_EQ(result.exit, 0) << result.output;
+        EXPECT_TRUE(tree(dir / "out") == before) << option;
+    }
 }
 
 /// The jobs that wait are those of all calls, each with its comment.
@@ -585,6 +715,26 @@ TEST_F(Sweep, StaysOutOfOtherFolders) {
     write_file(dir / "out/log.jsonl", "{\"epoch\":1,\"loss\":2.5}\n");
     actformer::test::expect_refused(sweep("--dry-run"), {"/out: holds a training", "another -o"});
     EXPECT_EQ(calls().size(), 0U);
+}
+
+TEST_F(Sweep, LeavesResultsOfOthersAlone) {
+    sweep_file("  full: {}\n");
+    const auto refused = [&](const std::string& held, const std::vector<std::string>& words) {
+        write_file(dir / "out/results.json", held);
+        for (const auto* option : {"", "--status", "--dry-run", "--only score-0"})
+            actformer::test::expect_refused(sweep(option), words);
+        EXPECT_EQ(read_file(dir / "out/results.json"), held);
+    };
+    refused(R"({"format": 1, "sweep": "mini", "rows": []})",
+            {"/out: holds the sweep 'mini', not 'test'; choose another -o", "`name: mini` into"});
+    refused(R"({"format": 1, "sweep": "comparison in out", "comparison": true, "rows": []})",
+            {"/out: holds a comparison, not the sweep 'test'; choose another -o"});
+    EXPECT_EQ(calls().size(), 0U);
+    for (const auto* held : {R"({"sweep": "mini", "checksum": "0"})", R"({"sweep": "test"})", "{"}) {
+        write_file(dir / "out/results.json", held);
+        EXPECT_EQ(sweep().exit, 0) << held;
+        EXPECT_EQ(results()["sweep"], "test");
+    }
 }
 
 TEST_F(Sweep, ADryRunChecksEveryKey) {

@@ -55,6 +55,24 @@ TEST_F(WrongKinds, WeightsFeaturesAndShardsAreNoMotions) {
             {"toy: a dataset; a training or weights"});
 }
 
+TEST_F(WrongKinds, MotionsAreNoWeightsAndNoFeatures) {
+    export_motions();
+    const auto features = [&](const std::string& recogniser) {
+        return "features --recogniser " + at(recogniser) + " " + at("m.h5") + " -o " + at("f.h5");
+    };
+    refused(features("m.h5"),
+            {"m.h5: holds motions, not a recogniser's weights; give a recogniser's training or its weights"});
+    ASSERT_EQ(run_actformer(features("r.h5")).exit, 0);
+    refused("classify --recogniser " + at("f.h5") + " " + at("m.h5"),
+            {"f.h5: holds features, not a recogniser's weights"});
+    const auto score = [&](const std::string& real, const std::string& generated) {
+        return "score --real-features " + at(real) + " --generated-features " + at(generated);
+    };
+    refused(score("m.h5", "f.h5"),
+            {"m.h5: holds motions, not features; give what `actformer features` makes"});
+    refused(score("f.h5", "r.h5"), {"r.h5: holds a recogniser's weights, not features"});
+}
+
 TEST_F(WrongKinds, FoldersOfOthersAreNoPlaceToWrite) {
     const auto before = tree(dir.path());
     for (const auto* folder : {"toy", "trained", "swept"})
@@ -92,6 +110,29 @@ TEST_F(WrongKinds, ASweepsPlanLooksAtThem) {
     expect_words(sweep_of("toy", generator, generator),
                  {"actformer.h5: holds a generator's weights, not a recogniser's weights"});
     expect_words(sweep_of("trained", "r.h5", generator), {"trained: holds a training, not a dataset"});
+}
+
+TEST_F(WrongKinds, ASweepsPlanLooksIntoFilesAndTrainings) {
+    export_motions();
+    fs::create_symlink("m.h5", dir / "link.h5");
+    const auto sweep_of = [&](const std::string& recogniser, const std::string& made_by) {
+        write_file(dir / "s.yaml",
+                   "datasets: {toy: {path: toy}}\nrecognisers: {toy: {weights: " + recogniser +
+                       "}}\nrows: {a: {data: toy, recogniser: toy, split: s/train, " + made_by + "}}\n");
+        return run_actformer("sweep " + at("s.yaml") + " --dry-run -o " + at("out"));
+    };
+    EXPECT_EQ(sweep_of("r.h5", "motions: m.h5").exit, 0);
+    expect_words(sweep_of("r.h5", "motions: toy"), {"toy: a folder; a file of motions (.h5) is expected"});
+    expect_words(sweep_of("r.h5", "motions: r.h5"), {"r.h5: a recogniser's weights, not motions"});
+    expect_words(sweep_of("r.h5", "motions: toy/shard-00000.h5"), {"a dataset's shard, not motions"});
+    expect_words(sweep_of("r.h5", "motions: [m.h5, m.h5]"), {"m.h5: given twice in motions"});
+    expect_words(sweep_of("r.h5", "motions: [m.h5, link.h5]"), {"link.h5: given twice in motions"});
+    expect_words(sweep_of("m.h5", "motions: m.h5"), {"m.h5: holds motions, not a recogniser's weights"});
+    expect_words(sweep_of("r.h5", "weights: m.h5"), {"m.h5: holds motions, not a generator's weights"});
+    expect_words(sweep_of("trained", "motions: m.h5"), {"trained: holds no weights-*.h5"});
+    fs::copy(source("weights/cmu/actformer.h5"), dir / "trained/weights-last.h5");
+    expect_words(sweep_of("trained", "motions: m.h5"),
+                 {"weights-last.h5: holds a generator's weights, not a recogniser's weights"});
 }
 
 TEST_F(WrongKinds, AComparisonLooksBeforeItScores) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
@@ -23,6 +24,15 @@ int parent_in(const YAML::Node& node, const std::vector<std::string>& names) {
                                 : node.as<int>();
 }
 
+/// Of two values the library would take the first.
+void refuse_keys_given_twice(const YAML::Node& map, const std::string& path) {
+    std::set<std::string> seen;
+    for (const auto& item : map)
+        if (!seen.insert(item.first.Scalar()).second)
+            throw Error("{}: line {}: {} is given twice", path, item.first.Mark().line + 1,
+                        item.first.Scalar());
+}
+
 Topology topology_in(const std::string& path) {
     std::vector<char> scratch;
     const std::string text(read_text(path, scratch, largest_file));
@@ -34,6 +44,7 @@ Topology topology_in(const std::string& path) {
                 "{}: a skeleton is told by names and parents, as in names: [hips, knee, foot], parents: [-1, "
                 "0, 1]",
                 path);
+        refuse_keys_given_twice(node, path);
         Topology topology;
         for (const auto& name : node["names"]) topology.names.push_back(printable(name.as<std::string>()));
         for (const auto& parent : node["parents"])

@@ -87,6 +87,22 @@ TEST_F(Report, ACellIsTheMeanOverSeeds) {
     EXPECT_TRUE(measured.notices.empty());
 }
 
+TEST_F(Report, TellsTheRepeatsOfWhatWasMeasured) {
+    const Json alone{{"fid_mean", {{"repeats", {2, 3}}}}};  // without accuracy, the table's first metric
+    add("full", "table3/full/NTU-1P", {alone});
+    add("fixed", "table3/fixed PE/NTU-1P", {Json{{"diversity", {{"repeats", {2, 3}}}}}});
+    add("single", "table3/Gaussian prior/NTU-1P", {Json{{"fid_mean", {{"repeats", std::vector{2}}}}}});
+    auto measured = read();
+    const auto tables = fill_tables(measured);
+    const auto lines = provenance(group(tables, "table3/full/NTU-1P"));
+    ASSERT_GE(lines.size(), 3U);
+    EXPECT_EQ(lines[1], "seeds 0; 2 repeats of generation and scoring");
+    EXPECT_EQ(lines[2], "± over 2 repeats");
+    EXPECT_EQ(provenance(group(tables, "table3/fixed PE/NTU-1P"))[1], "seeds 0") << "nothing of this table";
+    EXPECT_EQ(provenance(group(tables, "table3/Gaussian prior/NTU-1P"))[1],
+              "seeds 0; 1 repeat of generation and scoring");
+}
+
 TEST_F(Report, OneTrainingHasAnIntervalOverItsRepeats) {
     add("full", "table3/full/NTU-1P", {scores({0.2, 0.4, 0.6}, {1, 2, 6})});
     auto measured = read();
@@ -148,10 +164,13 @@ TEST_F(Report, RowsThatWereScoredAgainstTheSameMotionsStandSideBySide) {
     auto by_another = scores({0.99, 0.98}, {0.1, 0.11});
     by_another["provenance"] = {{"recogniser", {{"checksum", "other"}}}};
     add("by another recogniser", "", {by_another});
+    auto on_others = scores({0.99, 0.98}, {0.1, 0.11});
+    on_others["provenance"] = {{"real", {{"fingerprint", "other"}}}};
+    add("on other clips of that name", "", {on_others});
     add("not run", "", {})["status"] = "waiting";
     const auto measured = read();
     const RowTables tables(measured);
-    ASSERT_EQ(tables.filled().size(), 3U);
+    ASSERT_EQ(tables.filled().size(), 4U);
     const auto& one = tables.filled()[0];
     ASSERT_EQ(one.paper->columns[0].metrics.size(), 3U) << "accuracy, FIDm and acceleration";
     ASSERT_EQ(one.rows.size(), 3U) << "two rows and real motions";

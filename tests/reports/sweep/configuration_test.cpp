@@ -19,5 +19,14 @@ TEST(InConfiguration, TakesNothingOfAFileLargerThanAnyConfiguration) {
     EXPECT_EQ(in_configuration(file, "epochs", 0), 0);
 }
 
+TEST(InConfiguration, TakesAKeyWithoutAValueAsATrainingDoes) {
+    const test::TempDir dir;
+    const auto file = dir / "c.yaml";
+    test::write_file(file, "test_split:\nepochs: ~\n");
+    EXPECT_EQ(text_in({}, file, "test_split", "all"), "");
+    EXPECT_EQ(text_in({}, file, "train_split", "all"), "all");
+    EXPECT_EQ(in_configuration(file, "epochs", 7), 7);
+}
+
 }  // namespace
 }  // namespace actformer::reports

@@ -89,7 +89,7 @@ TEST(PaperTables, TellFileAndLineOfWhatIsWrong) {
     expect_refused(rows("{A: 3}"), {"line 8", "'A' of row 'a' must be a list"});
     expect_refused(rows("{B: [1, 2]}"), {"line 8", "no key 'B'; there are A"});
     expect_refused(rows("3"), {"line 8", "row 'a' must be a map"});
-    expect_refused(rows("{}\n  a: {}"), {"line 9", "'a' comes twice"});
+    expect_refused(rows("{}\n  a: {}"), {"line 9", "rows: 'a' is given twice"});
     expect_refused(rows("{}\n  a/b: {}"), {"line 9", "'a/b'"});
     expect_refused(rows("{}\nreal: b"), {"line 9", "no row 'b'"});
     expect_refused(rows("{}\ncolour: red"), {"line 9", "no key 'colour'", "caption"});
@@ -169,6 +169,8 @@ TEST(OwnTables, RefuseWhatWouldHideSomething) {
              {"table1: {" + cmu + ", rows: {a: {}}}", "there is a table 'table1' with other columns"},
              {"table3: {rows: {full: {NTU-1P: [1, 2, 3]}}}", "a row 'full' with other figures"},
              {"table1: {rows: {a: {NTU-9P: []}}}", "no key 'NTU-9P'"},
+             {"table1: {rows: {a: {}}}\ntable1: {rows: {b: {}}}", "line 2: tables: 'table1' is given twice"},
+             {"table1: {rows: {a: {}}, rows: {b: {}}}", "table 'table1': 'rows' is given twice"},
              {"[mine]", "must be a map"}}) {
         std::string why = "nothing is wrong";
         try {
