@@ -1,12 +1,16 @@
 // actformer render: motions as a contact sheet, a GIF or an MP4.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
+#include "base/error.hpp"
 #include "base/files/output.hpp"
 #include "base/text/counted.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "cli/format.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
 #include "reports/motions/gather.hpp"
@@ -58,13 +62,28 @@ void render(const RenderOptions& options) {
         progress.update(static_cast<double>(done) / static_cast<double>(all), done);
     });
     progress.clear();
-    std::error_code ignored;
-    const auto kilobytes = static_cast<double>(fs::file_size(options.output, ignored)) / 1000;
+    std::error_code of_a_stream;
+    const auto size = fs::file_size(options.output, of_a_stream);
     const auto drawn = motions.size() < there ? fmt::format("{} of {} (--count, --per-class)", motions.size(),
                                                             counted(there, "motion"))
                                               : counted(motions.size(), "motion");
-    say("{}: {}{}, {:.0f} kB\n", options.output.string(), drawn,
-        frames > 0 ? ", " + counted(frames, "frame") : "", kilobytes);
+    say("{}: {}{}{}\n", options.output.string(), drawn, frames > 0 ? ", " + counted(frames, "frame") : "",
+        of_a_stream ? "" : ", " + bytes(size));
+}
+
+/// Options that change nothing in the picture that is asked for.
+void refuse_without_effect(const CLI::App& command, const RenderOptions& options) {
+    if (reports::picture_kind(options.output) == reports::PictureKind::png)
+        refuse_given(command, {"--fps"}, "is for a .gif or .mp4; a contact sheet does not move");
+    else
+        refuse_given(command, {"--columns"}, "is for a contact sheet (.png)");
+    if (options.wanted.per_class > 0)
+        refuse_given(command, {"--count"}, "--per-class says how many of every class");
+    const auto& clips = options.wanted.clips;
+    if (!clips.empty())
+        refuse_given(command, {"--count", "--per-class", "--class", "--split"}, "--clip names the motions");
+    for (auto clip = clips.begin(); clip != clips.end(); ++clip)
+        if (std::find(clips.begin(), clip, *clip) != clip) throw Error("--clip: {} is given twice", *clip);
 }
 
 }  // namespace
@@ -114,7 +133,7 @@ void add_render(CLI::App& app) {
     command
         ->add_option("--fps", options->fps,
                      "Frames a second of a .gif or .mp4 (default: the motion's; a .gif has at most 50)")
-        ->check(CLI::Range(0.1, 1000.0));
+        ->check(number_in(0.1, 1000));
     examples(command,
              "  actformer render data/ntu-1p -o sheet.png\n"
              "  actformer render raw/S001C001P001R001A001.skeleton -o raw.png\n"
@@ -122,7 +141,10 @@ void add_render(CLI::App& app) {
              "  actformer render data/ntu-1p --clip S001C001P001R001A001 --view orbit -o drink.mp4\n"
              "  actformer render generated.h5 --per-class 4 -o generated.mp4\n"
              "  actformer render generated.h5 --body SMPL_NEUTRAL.pkl -o bodies.png\n");
-    command->callback([options] { render(*options); });
+    command->callback([options, command] {
+        refuse_without_effect(*command, *options);
+        render(*options);
+    });
 }
 
 }  // namespace actformer::cli

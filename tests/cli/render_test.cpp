@@ -1,19 +1,22 @@
 // `actformer render` as its users meet it: which motions it takes.
 #include <gtest/gtest.h>
 
+#include "cli/format.hpp"
 #include "tests/support/made_body.hpp"
 #include "tests/support/toy_dataset.hpp"
 #include "tests/support/turning_motion.hpp"
 
+using namespace actformer;
 using namespace actformer::test;
 
 namespace {
 
 struct Render : testing::Test {
     TempDir dir;
-    CommandResult render(const std::string& arguments) const {
-        return run_actformer("render " + toy().string() + " --size 40 --columns 1 --count 1 -o " +
-                             (dir / "sheet.png").string() + " " + arguments);
+    CommandResult render(const std::string& arguments) const { return drawn("--columns 1 " + arguments); }
+    CommandResult drawn(const std::string& arguments, const std::string& picture = "sheet.png") const {
+        return run_actformer("render " + toy().string() + " --size 40 -o " + (dir / picture).string() + " " +
+                             arguments);
     }
 };
 
@@ -22,7 +25,7 @@ struct Render : testing::Test {
 // Split s/two has classes 1 (c0) and 2 (c1), and not 3 (c2).
 TEST_F(Render, CountsClassesFromOneOrTakesTheirNames) {
     for (const auto* said : {"1", "2", "A002", "c0", "C1", "' C1 '"})
-        EXPECT_EQ(render("--split s/two --class " + std::string(said)).exit, 0) << said;
+        EXPECT_EQ(render("--count 1 --split s/two --class " + std::string(said)).exit, 0) << said;
     expect_refused(render("--split s/two --class 3"), {"no motion of class '3'"});
     expect_refused(render("--class 0"), {toy().string(), "no class 0", "from 1 to 3 ('c0' .. 'c2')"});
     expect_refused(render("--class 4"), {"no class 4", "from 1 to 3"});
@@ -48,9 +51,30 @@ TEST_F(Render, SaysOfHowManyMotionsItDrewSome) {
         EXPECT_EQ(result.exit, 0) << result.output;
         EXPECT_NE(result.output.find("sheet.png: " + words), std::string::npos) << result.output;
     };
-    says(render("--split s/test"), "1 of 12 motions (--count, --per-class), ");
+    says(render("--split s/test --count 1"), "1 of 12 motions (--count, --per-class), ");
     says(render("--split s/test --class c0 --per-class 3"), "3 of 4 motions (--count, --per-class), ");
     says(render("--clip c0_a_1"), "1 motion, ");
+}
+
+TEST_F(Render, RefusesOptionsWithoutEffect) {
+    expect_refused(drawn("--fps 10"), {"--fps: is for a .gif or .mp4", "leave it out"});
+    expect_refused(drawn("--columns 3", "a.gif"), {"--columns: is for a contact sheet (.png); leave it out"});
+    expect_refused(drawn("--count 5 --per-class 2"), {"--count: --per-class says how many", "leave it out"});
+    for (const std::string option : {"--count 3", "--per-class 2", "--class c0", "--split s/test"})
+        expect_refused(drawn("--clip c0_a_1 " + option),
+                       {option.substr(0, option.find(' ')) + ": --clip names the motions; leave it out"});
+    expect_refused(drawn("--clip c0_a_1 --clip c0_a_1"), {"--clip: c0_a_1 is given twice"});
+    expect_refused(drawn("--fps nan", "a.gif"), {"--fps: 'nan' is not a number from 0.1 to 1000"});
+    EXPECT_TRUE(std::filesystem::is_empty(dir.path()));
+    EXPECT_EQ(drawn("--clip c0_a_1 --fps 10", "a.gif").exit, 0);
+}
+
+TEST_F(Render, TellsSizesAsOtherCommandsDo) {
+    const auto sheet = drawn("--count 2");
+    ASSERT_EQ(sheet.exit, 0) << sheet.output;
+    EXPECT_NE(sheet.output.find(", " + cli::bytes(std::filesystem::file_size(dir / "sheet.png")) + "\n"),
+              std::string::npos)
+        << sheet.output;
 }
 
 TEST_F(Render, ABodyIsDrawnOnRotations) {

@@ -155,6 +155,25 @@ TEST(ContactSheet, SnapshotsDiffer) {
     EXPECT_GT(difference(sheet.colRange(0, width), sheet.colRange(sheet.cols - width, sheet.cols)), 0.01);
 }
 
+TEST(Animation, HasAClassARowWhereOneHasFewerMotions) {
+    const auto picture = [](const std::vector<std::uint32_t>& labels, int across) {
+        std::vector<JointMotion> motions(labels.size(), walkers(1, 4));
+        for (std::size_t i = 0; i < labels.size(); ++i) motions[i].label = labels[i];
+        auto layout = small();
+        layout.across = across;
+        return animation(motions, layout).draw(0);
+    };
+    const auto whole = picture({0, 0, 1, 1}, 2), uneven = picture({0, 1, 1}, 2);
+    ASSERT_EQ(uneven.size(), whole.size());
+    const int x = whole.cols / 2, third = whole.rows / 3;  // of two rows and the legend
+    const cv::Rect above(x, 0, x, third), below(x, 2 * third, x, third);
+    const cv::Mat paper(above.size(), CV_8UC3, style::scalar(style::paper));
+    EXPECT_GT(difference(whole(above), paper), 0.01);
+    EXPECT_EQ(difference(uneven(above), paper), 0);
+    EXPECT_EQ(difference(uneven(below), whole(below)), 0);
+    EXPECT_EQ(picture({0, 1, 1}, 100).size(), whole.size()) << "no wider than the largest class";
+}
+
 TEST(ContactSheet, TakesAnyTitle) {
     auto motion = walkers(1, 3);
     std::string every_byte;
