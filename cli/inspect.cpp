@@ -61,11 +61,10 @@ void print_text(const ingest::Dataset& dataset, bool list_classes) {
     say("  {} ({} to {} a clip, median {}) in {}, {}\n", counted(lengths.total, "frame"), lengths.shortest,
         lengths.longest, lengths.median, counted(dataset.shards().size(), "shard"), bytes(size));
     if (const auto origin = header.origin.text(); !origin.empty()) say("  {}\n", origin);
-    constexpr double tallest = 4;
     if (const auto height = ingest::body_height(dataset))
         say("  about {:.2f} m from the lowest joint to the highest{}{}\n", height->metres,
             height->axis == 'y' ? "" : fmt::format(", along {}: bodies lie, or y is not up", height->axis),
-            height->metres > tallest ? "; ingest in metres, with --scale" : "");
+            height->metres > ingest::tallest_body ? "; ingest in metres, with --scale" : "");
     for (const auto& remark : dataset.remarks()) say("  {}\n", remark);
     for (const auto& split : header.splits)
         say("  split {:<14} {}\n", split.name, counted(dataset.split(split.name).size(), "clip"));

@@ -22,13 +22,24 @@ float quantile(std::vector<float> values, double share) {
 
 using JointPlaces = std::vector<std::array<double, 3>>;  ///< (joints)
 
-/// The first person's joints in some frames.
-std::vector<JointPlaces> some_frames(const Motion& motion, const BodyModel& body) {
+/// Some frames, spread over the motion.
+Motion some_frames(const Motion& motion) {
+    const std::size_t step = std::max<std::size_t>(1, motion.frames / frames_a_clip),
+                      frame = std::size_t{motion.persons} * motion.nodes * motion.numbers;
+    Motion out{motion.name, 0, motion.persons, motion.nodes, motion.numbers, {}};
+    for (std::size_t f = 0; f < motion.frames; f += step, ++out.frames) {
+        const auto first = motion.values.begin() + static_cast<std::ptrdiff_t>(f * frame);
+        out.values.insert(out.values.end(), first, first + static_cast<std::ptrdiff_t>(frame));
+    }
+    return out;
+}
+
+/// The first person's joints, frame by frame.
+std::vector<JointPlaces> first_person(const Motion& motion, const BodyModel& body) {
     const auto positions = joint_positions(motion, body);
-    const std::size_t joints = body.topology.joints(),
-                      step = std::max<std::size_t>(1, motion.frames / frames_a_clip);
+    const std::size_t joints = body.topology.joints();
     std::vector<JointPlaces> out;
-    for (std::size_t f = 0; f < motion.frames; f += step) {
+    for (std::size_t f = 0; f < motion.frames; ++f) {
         auto& places = out.emplace_back(joints);
         for (std::size_t j = 0; j < joints; ++j)
             for (std::size_t d = 0; d < 3; ++d)
@@ -51,6 +62,7 @@ struct Look {
 
     void add(const std::vector<JointPlaces>& clip, const BodyParts& parts);
     std::optional<std::size_t> axis_of_the_trunk() const;
+    std::optional<BodyHeight> height() const;
 };
 
 void Look::add(const std::vector<JointPlaces>& clip, const BodyParts& parts) {
@@ -75,6 +87,19 @@ std::optional<std::size_t> Look::axis_of_the_trunk() const {
     return std::abs(upright[1]) < 0.5 * whole ? most : 1;
 }
 
+std::optional<BodyHeight> Look::height() const {
+    if (lengths[0].empty()) return {};
+    std::array<double, 3> metres{};
+    for (std::size_t d = 0; d < 3; ++d) metres[d] = quantile(lengths[d], 0.5);
+    constexpr std::array axes{'x', 'y', 'z'};
+    if (const auto axis = axis_of_the_trunk())
+        return BodyHeight{metres[*axis], axes[*axis], upright[*axis] < 0 ? -1 : 1};
+    BodyHeight height{metres[1], 'y'};
+    for (const std::size_t d : {0, 2})
+        if (metres[d] > 1.25 * height.metres) height = {metres[d], axes[d]};
+    return height;
+}
+
 }  // namespace
 
 std::optional<BodyHeight> body_height(const Dataset& dataset) {
@@ -84,17 +109,15 @@ std::optional<BodyHeight> body_height(const Dataset& dataset) {
     for (std::size_t i = 0; i < looked_at; ++i) {
         const std::size_t clip = i * clips / looked_at;
         if (dataset.clips()[clip].frames > 0)
-            look.add(some_frames(dataset.motion(clip), dataset.body(clip)), parts);
+            look.add(first_person(some_frames(dataset.motion(clip)), dataset.body(clip)), parts);
     }
-    if (look.lengths[0].empty()) return {};
-    std::array<double, 3> lengths{};
-    for (std::size_t d = 0; d < 3; ++d) lengths[d] = quantile(look.lengths[d], 0.5);
-    constexpr std::array axes{'x', 'y', 'z'};
-    if (const auto axis = look.axis_of_the_trunk()) return BodyHeight{lengths[*axis], axes[*axis]};
-    BodyHeight height{lengths[1], 'y'};
-    for (const std::size_t d : {0, 2})
-        if (lengths[d] > 1.25 * height.metres) height = {lengths[d], axes[d]};
-    return height;
+    return look.height();
+}
+
+std::optional<BodyHeight> body_height(const Motion& motion, const BodyModel& body) {
+    Look look;
+    if (motion.frames > 0) look.add(first_person(some_frames(motion), body), body_parts(body.topology.names));
+    return look.height();
 }
 
 }  // namespace actformer::ingest

@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 30;
 
-/// Records of comma-separated values, fields in quotes or not; a line break in quotes belongs to its field.
+/// Records of comma-separated values, fields in quotes or not; a line break in quotes belongs to its field, blanks around it do
+/// not.
 class CsvReader {
   public:
     CsvReader(std::string_view text, const std::string& where) : text_(without_bom(text)), where_(where) {
@@ -45,8 +46,10 @@ class CsvReader {
   private:
     /// True where another field follows in the record.
     bool read_field(std::string& field) {
+        skip_blanks();
         if (text_.starts_with('"')) {
             read_quoted(field);
+            skip_blanks();
             if (!text_.empty() && text_[0] != separator_ && text_[0] != '\n' && text_[0] != '\r')
                 throw Error("{}: text after the closing \" of {}", place(), in_quotes(field));
         }
@@ -54,11 +57,17 @@ class CsvReader {
         auto plain = text_.substr(0, end);
         const bool more = end < text_.size() && text_[end] == separator_;
         if (plain.ends_with('\r') && !more) plain.remove_suffix(1);
+        while (!plain.empty() && blank(plain.back())) plain.remove_suffix(1);
         field += plain;
         next_line_ += end < text_.size() && !more;
         text_.remove_prefix(std::min(end + 1, text_.size()));
         if (more && text_.empty()) text_ = "\n";  // an empty last field at the end of the text
         return more;
+    }
+
+    bool blank(char c) const { return c == ' ' || (c == '\t' && separator_ != '\t'); }
+    void skip_blanks() {
+        while (!text_.empty() && blank(text_[0])) text_.remove_prefix(1);
     }
 
     void read_quoted(std::string& field) {

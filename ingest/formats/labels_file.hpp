@@ -5,6 +5,8 @@
 //   hips31/02/02_05.bvh,punch,2,1,927                start_frame, end_frame: of the file's frames, from 0, the end not among them;
 //   hips31/02/02_05.bvh,strike,2,927,1855            empty: to the file's ends. Several rows make several clips of a file.
 //                                                    every other column: a field of the clip, for splits
+//
+// Blanks around a value are left out, unless they stand in its quotes.
 #pragma once
 
 #include <cstdint>

@@ -53,6 +53,7 @@ KeptShard shard_from(const Json& json) {
 
 /// Throws Error or Json::exception where it is none.
 Tranche tranche_from(const Json& json) {
+    expect_counts(json);
     Tranche tranche{json.at("files"), json.at("text_bytes"), json.at("fingerprint"), {}, {}, {},
                     json.at("names"), json.at("labels"),     json.at("splits")};
     for (const auto& one : json.at("doubts"))
@@ -116,8 +117,9 @@ std::string Workplace::line_for(const std::string& text) {
 void Workplace::load(const std::string& request) {
     std::ifstream journal(folder_ / "journal", std::ios::binary);
     std::string line, whole = line_for(request);
-    if (!std::getline(journal, line) || journal.eof()) return start_afresh(request);
-    if (line + "\n" != whole) {
+    const bool ends = std::getline(journal, line) && !journal.eof();
+    if (!ends && whole.starts_with(line)) return start_afresh(request);  // a kill may have cut it short
+    if (!ends || line + "\n" != whole) {
         notes_.push_back(fmt::format("{}: damaged, or of other settings or raw files; all is read again",
                                      (folder_ / "journal").string()));
         return start_afresh(request);

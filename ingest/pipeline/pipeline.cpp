@@ -72,6 +72,7 @@ class Ingest {
         if (is_taken(request_.out) && !fs::exists(request_.out / "ingest.json")) refuse_taken();
         settle_format();
         Source source = open_source();
+        not_read_ = source.not_read();
         summary_.seconds.walk = seconds_since(start);
         const auto wanted = request_line(source);
         const auto aside = workplace_of(request_.out);
@@ -79,7 +80,7 @@ class Ingest {
             take_over_finished(wanted);
             for (const auto& left : {aside, fs::path(request_.out.string() + ".partial")})
                 remove_workplace(left);
-            return summary_;
+            return whole_summary();
         }
         const SafePoints safe_points;
         Workplace workplace(aside, wanted, format_.datasets().size());
@@ -97,10 +98,16 @@ class Ingest {
             throw Error("{} ({})", e.what(), kept);
         }
         summary_.seconds.wall = seconds_since(start);
-        return summary_;
+        return whole_summary();
     }
 
   private:
+    /// With the remarks on archives in RAW now: some may have come or gone since a finished ingest was made.
+    IngestSummary whole_summary() {
+        summary_.remarks.insert(summary_.remarks.end(), not_read_.begin(), not_read_.end());
+        return summary_;
+    }
+
     /// What a run that stops here leaves for the next one, in words; removes it where that is nothing.
     static std::string kept_for_later(Workplace& workplace, const fs::path& aside) {
         std::uint64_t kept = 0;
@@ -399,7 +406,8 @@ class Ingest {
         }
         write_whole(workplace.data() / "rejected.csv", rejected_csv(tranches), Sync::later);
         write_whole(workplace.data() / "ingest.json",
-                    record_text({format_.settings(), checksum(wanted), fingerprint_}, request_.out, summary_),
+                    record_text({format_.settings(), checksum(wanted), fingerprint_, not_read_}, request_.out,
+                                summary_),
                     Sync::later);
         workplace.deliver(request_.out);
     }
@@ -458,6 +466,7 @@ class Ingest {
     unsigned threads_;
     std::optional<DataOrigin::Kind> origin_;
     IngestSummary summary_;
+    std::vector<std::string> not_read_;                           ///< as Source tells it
     std::vector<std::vector<std::unique_ptr<RawClip>>> pending_;  ///< (datasets) parsed and not yet cleaned
     std::size_t pending_bytes_ = 0;
     std::vector<ShardBuilder> shards_;                        ///< (datasets) in the making

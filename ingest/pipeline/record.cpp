@@ -24,6 +24,7 @@ void add_doubt(const Doubtful& one, std::vector<IngestSummary::Doubt>& doubts) {
 }
 
 void take_summary(const nlohmann::ordered_json& json, const fs::path& out, IngestSummary& summary) {
+    expect_counts(json);
     summary.was_complete = true;
     summary.files = json.at("files");
     summary.text_bytes = json.at("text_bytes");
@@ -135,7 +136,8 @@ std::string record_text(const Origin& origin, const fs::path& out, const IngestS
                                 {"text_bytes", summary.text_bytes},
                                 {"left_out", summary.left_out},
                                 {"first_rejections", summary.first_rejections},
-                                {"remarks", summary.remarks}};
+                                {"remarks", summary.remarks},
+                                {"not_read", origin.not_read}};
     json["doubts"] = doubts_json(summary);
     json["datasets"] = datasets_json(summary);
     for (auto& d : json["datasets"])

@@ -15,8 +15,9 @@ namespace actformer::ingest {
 /// What the output was made from.
 struct Origin {
     std::string settings;
-    std::string request;      ///< checksum of all that decides the output
-    std::string fingerprint;  ///< of the raw text
+    std::string request;                ///< checksum of all that decides the output
+    std::string fingerprint;            ///< of the raw text
+    std::vector<std::string> not_read;  ///< as Source tells it; a later run finds it anew
 };
 
 /// Counts files and rejections into `summary`.

@@ -22,6 +22,7 @@
 #include "base/text/extension.hpp"
 #include "base/text/html.hpp"
 #include "base/threads/parallel.hpp"
+#include "ingest/pipeline/packed_names.hpp"
 
 namespace actformer::ingest {
 namespace fs = std::filesystem;
@@ -42,10 +43,15 @@ std::string file_name(const std::string& path) {
     return path.substr(path.find_last_of('/') + 1);
 }
 
-/// A file of the format, and not one of the "._" companions that some archivers add.
+/// One of the files that some archivers add, a companion to each of the others.
+bool is_companion(const std::string& name) {
+    return name.starts_with("._");
+}
+
+/// A file of the format, and no companion.
 bool is_wanted(const std::string& path, const Extensions& extensions) {
     const auto name = file_name(path);
-    return !name.starts_with("._") && extension_of(name, extensions) > 0;
+    return !is_companion(name) && extension_of(name, extensions) > 0;
 }
 
 std::string stem_of(const std::string& path, const Extensions& extensions) {
@@ -221,6 +227,13 @@ struct Found {
     std::string unreadable{};  ///< why; empty where nothing speaks against it
 };
 
+/// Which file or folder it is, whatever path leads there; nothing where none does.
+std::optional<std::pair<dev_t, ino_t>> identity_of(const fs::path& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return {};
+    return std::pair(status.st_dev, status.st_ino);
+}
+
 /// The files below a folder. Links to folders are followed, each folder once: circles end, and where a folder is there both itself and
 /// by a link, its files have their own paths. Links to a folder that the given one lies in are not followed: what is beside it was not given.
 class FolderWalk {
@@ -246,10 +259,13 @@ class FolderWalk {
                   [](const Found& a, const Found& b) { return a.path < b.path; });
     }
 
+    /// Paths of archives and compressed files, which are none of the items.
+    const std::vector<std::string>& packed() const { return packed_; }
+
   private:
     bool is_new(const fs::path& folder) {
-        struct stat status {};
-        return ::stat(folder.c_str(), &status) == 0 && walked_.emplace(status.st_dev, status.st_ino).second;
+        const auto identity = identity_of(folder);
+        return identity && walked_.insert(*identity).second;
     }
 
     void walk_unlinked(const fs::path& folder) {
@@ -258,8 +274,11 @@ class FolderWalk {
              it.increment(error)) {
             std::error_code ignored;  // a file that cannot be looked at is rejected when it is read
             if (!it->is_directory(ignored)) {
-                if (is_wanted(it->path().native(), extensions_))
-                    items_.push_back({it->path().native(), given_});
+                const auto& path = it->path().native();
+                if (is_wanted(path, extensions_))
+                    items_.push_back({path, given_});
+                else if (is_packed(path) && !is_companion(file_name(path)) && it->is_regular_file(ignored))
+                    packed_.push_back(path);
             } else if (it->is_symlink(ignored)) {
                 links_.insert(it->path());
             } else if (!is_new(it->path())) {
@@ -272,6 +291,7 @@ class FolderWalk {
     std::size_t given_;
     const Extensions& extensions_;
     std::vector<Found>& items_;
+    std::vector<std::string> packed_;
     std::set<fs::path> links_;                  ///< to folders, still to be walked
     std::set<std::pair<dev_t, ino_t>> walked_;  ///< folders, or left out
 };
@@ -314,6 +334,7 @@ struct Source::State {
     std::uint64_t largest = usual_largest_file;
     std::vector<fs::path> given;
     std::vector<Found> items;
+    std::vector<std::string> not_read;  ///< remarks
     std::size_t at = 0;
     std::uint64_t files = 0, passed = 0;
     std::unique_ptr<Archive> archive;
@@ -324,6 +345,17 @@ struct Source::State {
         const auto& folder = given[item.given].native();
         if (folder.size() >= item.path.size()) return item.path;
         return item.path.substr(item.path.find_first_not_of('/', folder.size()));
+    }
+
+    /// Of `packed` files in a folder that was given, those that were not given themselves.
+    void remark_on(std::size_t folder, const std::vector<std::string>& packed) {
+        std::set<std::optional<std::pair<dev_t, ino_t>>> themselves;
+        for (const auto& path : given) themselves.insert(identity_of(path));
+        std::vector<std::string> others;
+        for (const auto& path : packed)
+            if (!themselves.contains(identity_of(path))) others.push_back(inside({path, folder}));
+        for (auto& line : remarks_on_packed(given[folder], std::move(others)))
+            not_read.push_back(std::move(line));
     }
 
     bool step(RawFile& file, bool with_bytes) {
@@ -363,7 +395,9 @@ Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_v
         if (!fs::exists(status))
             throw Error("{}: no such file or folder{}", raw[i].string(), did_you_mean(raw[i]));
         if (fs::is_directory(status)) {
-            FolderWalk(i, state_->extensions, left_out, state_->items).walk(raw[i]);
+            FolderWalk folder(i, state_->extensions, left_out, state_->items);
+            folder.walk(raw[i]);
+            state_->remark_on(i, folder.packed());
         } else {
             refuse_irregular(raw[i]);
             const bool archive = extension_of(raw[i].string(), state_->extensions) == 0;
@@ -377,7 +411,8 @@ Source::Source(const std::vector<fs::path>& raw, const std::vector<std::string_v
     if (state_->items.empty()) {
         std::string where;
         for (const auto& path : raw) where += (where.empty() ? "" : ", ") + path.string();
-        throw Error("{}: no {} file there", where, fmt::join(extensions, ", "));
+        throw Error("{}: no {} file there{}{}", where, fmt::join(extensions, ", "),
+                    state_->not_read.empty() ? "" : "; ", fmt::join(state_->not_read, "; "));
     }
 }
 
@@ -402,6 +437,10 @@ std::uint64_t Source::bytes_total() const {
 
 std::uint64_t Source::bytes_read() const {
     return state_->passed + (state_->archive ? state_->archive->position() : 0);
+}
+
+const std::vector<std::string>& Source::not_read() const {
+    return state_->not_read;
 }
 
 std::string Source::listing() const {

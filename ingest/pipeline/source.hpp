@@ -81,6 +81,9 @@ class Source {
     std::uint64_t bytes_total() const;  ///< on disk: of files and archives
     std::uint64_t bytes_read() const;   ///< how many of those next() has passed
 
+    /// The lines of remarks_on_packed() on archives and compressed files in folders: they are not read unless they are given themselves.
+    const std::vector<std::string>& not_read() const;
+
     /// Fingerprint of which files there are: paths, sizes and times of change. Differs where a re-run would differ.
     std::string listing() const;
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/text/counted.hpp"
 #include "base/text/first_few.hpp"
 #include "base/text/printable.hpp"
 #include "ingest/formats/babel/amass_file.hpp"
@@ -140,10 +141,13 @@ void BabelFormat::gather_sequences() {
 void BabelFormat::find_files() {
     SequenceFiles lookup;
     for (const auto& one : sequences_) lookup.add(one.sequence.feat_p);
+    std::vector<std::string> without_subset;
     for (const auto& [index, path] : files_)
         if (auto found = lookup.of(path); !found.empty()) {
             for (const auto i : found) sequences_[i].found = true;
             of_file_.emplace(index, std::move(found));
+            if (lookup.subset_of(path).empty())
+                without_subset.push_back(part_of(path, 1) + "/" + part_of(path, 0));
         }
     if (of_file_.empty())
         throw Error(
@@ -152,6 +156,11 @@ void BabelFormat::find_files() {
             "package SMPL+H G, or the folder they were unpacked to",
             files_.size(), sequences_.size(), printable(sequences_[0].sequence.feat_p));
     files_.clear();
+    if (const auto count = without_subset.size(); count > 0)
+        remarks_.push_back(
+            fmt::format("{} {} matched by subject and trial alone ({}): {} folders name no subset of AMASS",
+                        counted(count, "file"), count == 1 ? "is" : "are", first_few(without_subset),
+                        count == 1 ? "its" : "their"));
 }
 
 void BabelFormat::remark() {

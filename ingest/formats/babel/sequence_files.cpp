@@ -96,18 +96,23 @@ std::vector<std::size_t> SequenceFiles::of(std::string_view path) const {
     if (parts.size() < 2) return out;
     const auto found = by_trial_.find(key_of(parts[parts.size() - 2], parts.back()));
     if (found == by_trial_.end()) return out;
-    // The subset is the last part before the subject that is a subset's name.
+    const auto set = subset_of(path);
+    for (const auto& entry : found->second)
+        if (set.empty() || entry.set == set || entry.folder == set) out.push_back(entry.sequence);
+    return out;
+}
+
+std::string SequenceFiles::subset_of(std::string_view path) const {
+    const auto parts = parts_of(path);
     std::string set;
-    for (std::size_t i = 0; i + 2 < parts.size(); ++i)
+    for (std::size_t i = 0; i + 2 < parts.size(); ++i)  // behind these are the subject and the trial
         for (const auto part : {parts[i], parts[i].substr(0, parts[i].find('.'))}) {  // as in CMU.tar.bz2
             auto name = canonical(part);
             if (!is_subset(name) && !sets_.contains(name)) continue;
             set = std::move(name);
             break;
         }
-    for (const auto& entry : found->second)
-        if (set.empty() || entry.set == set || entry.folder == set) out.push_back(entry.sequence);
-    return out;
+    return set;
 }
 
 }  // namespace actformer::ingest

@@ -23,6 +23,9 @@ class SequenceFiles {
     /// path without the name of a subset may be of any.
     std::vector<std::size_t> of(std::string_view path) const;
 
+    /// The subset that a folder or archive of `path` names, its last one, whatever its name there; empty where none does.
+    std::string subset_of(std::string_view path) const;
+
   private:
     struct Entry {
         std::size_t sequence;

@@ -16,6 +16,7 @@
 #include "ingest/formats/frame_span.hpp"
 #include "ingest/formats/skeletal/persons.hpp"
 #include "ingest/formats/skeletal/rearrange.hpp"
+#include "ingest/formats/stillness.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -80,6 +81,13 @@ std::string put_together(std::vector<Recording>& persons) {
         shift(person, way);
     }
     return {};
+}
+
+/// Of a clip from frame `first` on, where the options skip `skipped` frames.
+std::string jump_doubt(std::uint32_t first, std::uint32_t skipped) {
+    return "the first frame is a jump, as from a reference pose; " +
+           (first > skipped ? "a start_frame of one more in the labels leaves it out"
+                            : fmt::format("--skip-first {} leaves it out", first + 1));
 }
 
 std::uint32_t frame_at(const ClipPlace& place, double fps) {
@@ -344,26 +352,18 @@ ParsedClip BvhFormat::make_clip(const NamedClip& named, const std::vector<Record
     clip->recorded = last - first;
     clip->frames = static_cast<std::uint32_t>(frames);
     clip->step = static_cast<float>(step);
+    std::vector<bool> still;
+    bool jumps = false;
     for (std::size_t p = 0; p < persons.size(); ++p) {
         auto person = cut(persons[p], first, last);
-        if (p == 0)
-            clip->doubts =
-                doubts_of(person, skeletons[p],
-                          first > skipped ? "a start_frame of one more in the labels leaves it out"
-                                          : fmt::format("--skip-first {} leaves it out", first + 1));
+        still.push_back(stands_still(person));
+        jumps = jumps || begins_with_jump(person, skeletons[p].root);
         clip->persons.push_back({kinematic_joints(person, skeletons[p]), std::move(person.values)});
     }
+    clip->doubts = stillness_doubts(clip->recorded, still);
+    if (jumps) clip->doubts.push_back(jump_doubt(first, skipped));
     span.add_doubts(clip->doubts);
     return clip;
-}
-
-std::vector<std::string> BvhFormat::doubts_of(const Recording& person, const Skeleton& skeleton,
-                                              const std::string& first_left_out) {
-    if (person.frames == 1) return {"a single frame holds no motion"};
-    if (stands_still(person)) return {"nothing moves"};
-    if (begins_with_jump(person, skeleton.root))
-        return {"the first frame is a jump, as from a reference pose; " + first_left_out};
-    return {};
 }
 
 kernels::CleanedBatch BvhFormat::clean(kernels::Device& device, std::size_t dataset,

@@ -66,9 +66,6 @@ class BvhFormat : public Format {
     std::optional<Rejection> fit(std::vector<Recording>& persons, std::vector<Skeleton>& skeletons) const;
     ParsedClip make_clip(const NamedClip& named, const std::vector<Recording>& persons,
                          const std::vector<Skeleton>& skeletons) const;
-    /// `first_left_out` says how to leave out the clip's first frame.
-    static std::vector<std::string> doubts_of(const Recording& person, const Skeleton& skeleton,
-                                              const std::string& first_left_out);
 
     BvhOptions options_;
     ClipNames names_;

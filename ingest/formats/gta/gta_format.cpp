@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
+#include "base/text/counted.hpp"
 #include "base/text/printable.hpp"
 #include "ingest/formats/detections.hpp"
 #include "ingest/formats/gta/jta_file.hpp"
@@ -14,6 +15,7 @@ namespace actformer::ingest {
 namespace {
 
 constexpr double longest_limb = 1.01;           // of a unit vector
+constexpr double off_unit = 0.05;               // of most limbs' lengths, at most
 constexpr double farthest_apart = 4;            // metres between persons who fight
 constexpr std::uint64_t most_bodies = 1 << 18;  // of a clip, over all frames
 constexpr std::size_t body = gta_joints * 3;
@@ -41,9 +43,39 @@ Rejection broken(std::string reason) {
     return {Rejection::Kind::broken, std::move(reason)};
 }
 
+/// Of `values` (3 * persons, 22, frames).
+Place limb_at(const std::vector<float>& values, std::size_t frames, std::size_t person, std::size_t joint,
+              std::size_t frame) {
+    Place v;
+    for (std::size_t d = 0; d < 3; ++d)
+        v[d] = values[((3 * person + d) * gta_joints + joint) * frames + frame];
+    return v;
+}
+
+double length_of(const Place& v) {
+    return std::hypot(v[0], v[1], v[2]);
+}
+
 /// z up to y up.
 Place upright(const Place& p) {
     return {p[0], p[2], -p[1]};
+}
+
+/// Why `values` (3 * persons, 22, frames) hold no unit limbs; empty where they may. A limb of length 0 has no direction, and does not count.
+std::string no_unit_limbs(const std::vector<float>& values, std::uint64_t persons, std::uint64_t frames) {
+    constexpr auto remedy = "joint positions? actformer ingest motions --topology gta22 takes them";
+    std::uint64_t limbs = 0, unit = 0;
+    for (std::size_t p = 0; p < persons; ++p)
+        for (std::size_t t = 0; t < frames; ++t)
+            for (std::size_t j = 1; j < gta_joints; ++j) {
+                const double length = length_of(limb_at(values, frames, p, j, t));
+                if (length > longest_limb)
+                    return fmt::format("frame {}: joint {} is no unit vector: {}", t, j, remedy);
+                limbs += length > 0;
+                unit += std::abs(length - 1) <= off_unit;
+            }
+    if (2 * unit >= limbs) return {};
+    return fmt::format("{} of {} limbs are unit vectors: {}", unit, limbs, remedy);
 }
 
 /// How far persons are apart on the floor, on average over frames and pairs; 0 for one.
@@ -68,6 +100,13 @@ std::vector<float> told_lengths(const std::string& path) {
     if (!sound) throw Error("{}: 'avglength' is no {} lengths in metres", path, gta_joints);
     lengths[0] = 0;
     return lengths;
+}
+
+/// How many persons of a file of JTA are left out, and why; empty where none is.
+std::string left_out(const JtaFile& file) {
+    if (file.incomplete == 0) return {};
+    return fmt::format("{} left out: never seen with all of JTA's 22 joints",
+                       counted(file.incomplete, "person"));
 }
 
 /// A person of JTA as limbs of GTA Combat, y up.
@@ -153,6 +192,8 @@ ParsedClip GtaFormat::public_clip(const hdf5::Reader& file, const std::string& n
     const auto values = file.read<float>(name);
     if (!std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); }))
         return broken("a number that is not finite");
+    if (auto reason = no_unit_limbs(values, persons, frames); !reason.empty())
+        return broken(std::move(reason));
     auto clip = std::make_unique<GtaClip>();
     clip->dataset = persons - 1;
     clip->frames = static_cast<std::uint32_t>(frames);
@@ -163,15 +204,8 @@ ParsedClip GtaFormat::public_clip(const hdf5::Reader& file, const std::string& n
             auto& person = clip->persons[p];
             person.times.push_back(static_cast<float>(t));
             for (std::size_t j = 0; j < gta_joints; ++j) {
-                Place v;
-                for (std::size_t d = 0; d < 3; ++d)
-                    v[d] = values[((3 * p + d) * gta_joints + j) * frames + t];
-                const double length = std::hypot(v[0], v[1], v[2]);
-                if (j > 0 && length > longest_limb)
-                    return broken(fmt::format(
-                        "frame {}: joint {} is no unit vector: joint positions? actformer ingest motions "
-                        "--topology gta22 takes them",
-                        t, j));
+                const auto v = limb_at(values, frames, p, j, t);
+                const double length = length_of(v);
                 const double across = j == 0       ? options_.root_scale
                                       : length > 0 ? lengths_[j] / length
                                                    : 0,
@@ -196,10 +230,12 @@ ParsedClip GtaFormat::jta_clip(const RawText& raw) const {
     auto& file = std::get<JtaFile>(parsed);
     auto& persons = file.persons;
     if (persons.empty()) return broken("no person with all of JTA's 22 joints in any frame");
+    const auto lost = left_out(file);
     if (options_.persons > 0) {
         if (persons.size() < options_.persons)
             return Rejection{Rejection::Kind::dropped,
-                             fmt::format("{} of {} persons seen", persons.size(), options_.persons)};
+                             fmt::format("{} of {} persons seen{}{}", persons.size(), options_.persons,
+                                         lost.empty() ? "" : "; ", lost)};
         std::stable_sort(persons.begin(), persons.end(),
                          [](const auto& a, const auto& b) { return a.times.size() > b.times.size(); });
         persons.resize(options_.persons);
@@ -221,6 +257,7 @@ ParsedClip GtaFormat::jta_clip(const RawText& raw) const {
         clip->persons.push_back(person_of(person));
     }
     if (gaps) clip->doubts.emplace_back("persons not seen all the time: filled from the frames around");
+    if (options_.persons == 0 && !lost.empty()) clip->doubts.push_back(lost);
     return clip;
 }
 

@@ -110,7 +110,10 @@ class Reader {
                 person.times.push_back(static_cast<std::uint32_t>(frame - first_));
                 person.positions.insert(person.positions.end(), body.positions.begin(), body.positions.end());
             }
-            if (!person.times.empty()) out.persons.push_back(std::move(person));
+            if (person.times.empty())
+                ++out.incomplete;
+            else
+                out.persons.push_back(std::move(person));
         }
         return out;
     }

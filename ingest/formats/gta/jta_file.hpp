@@ -21,6 +21,7 @@ struct JtaPerson {
 struct JtaFile {
     std::uint32_t frames = 0;        ///< from the first to the last that has a row
     std::vector<JtaPerson> persons;  ///< those seen in some frame, by their number
+    std::size_t incomplete = 0;      ///< how many others there are: no frame tells all their joints
 };
 
 /// Throws nothing for what is in the text, which 64 zero bytes follow. A rejection names the row.

@@ -103,6 +103,14 @@ double coordinate_in(const Lines& lines, std::string_view field) {
     return value;
 }
 
+/// 0,1,2,... or 1,2,3,...: as pandas names the columns of an array.
+bool numbers_columns(const std::vector<std::string_view>& fields) {
+    const std::size_t first = fields[0] == "1" ? 1 : 0;
+    for (std::size_t c = 0; c < fields.size(); ++c)
+        if (fields[c] != std::to_string(first + c)) return false;
+    return true;
+}
+
 /// One line a frame.
 CsvMotion read_rows(Lines& lines, std::vector<std::string_view>& fields, std::size_t joints) {
     CsvMotion motion;
@@ -212,10 +220,13 @@ CsvMotion read_csv_motion(std::string_view text, const std::vector<std::string>&
                                            [](std::string_view field) { return same_word(field, "joint"); });
     if (names_columns) return Table(lines, fields, names).read();
     double ignored = 0;
-    const bool header = std::none_of(fields.begin(), fields.end(),
-                                     [&](std::string_view field) { return number_of(field, ignored); });
-    if (header && !lines.next(fields)) lines.fail("no frame below the first line");
-    return read_rows(lines, fields, names.size());
+    const bool words = std::none_of(fields.begin(), fields.end(),
+                                    [&](std::string_view field) { return number_of(field, ignored); });
+    const bool numbered = fields.size() == names.size() * 3 && numbers_columns(fields);
+    if ((words || numbered) && !lines.next(fields)) lines.fail("no frame below the first line");
+    auto motion = read_rows(lines, fields, names.size());
+    motion.numbered_columns = numbered;
+    return motion;
 }
 
 }  // namespace actformer::ingest

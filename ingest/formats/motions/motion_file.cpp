@@ -69,6 +69,7 @@ class Look {
                 FoundMotion found;
                 found.persons = static_cast<std::uint32_t>(motion.persons);
                 out_.motions.push_back(std::move(found));
+                out_.numbered_columns = motion.numbered_columns;
                 return;
             }
             case Kind::hdf5:
@@ -155,10 +156,11 @@ class Look {
             out_.bone_length = subjects->bone_length;
             out_.rest = subjects->rest;
         }
+        const bool either_is_stored = !told && how_.axes.empty() && takes_either_as_stored(file, keys);
         bool first = true;
         for (const auto& key : keys) {
             const auto shape = file.shape(key);
-            if (!told && holds_positions(shape)) {
+            if (!told && holds_positions(shape, either_is_stored)) {
                 NumpyArray array;
                 array.shape.assign(shape.begin(), shape.end());
                 add(key, array, topology());
@@ -170,8 +172,43 @@ class Look {
     }
 
     /// Positions have their coordinates on the last axis, motions of the public layout their frames.
-    bool holds_positions(const hdf5::Shape& shape) const {
-        return !how_.axes.empty() || shape.size() != 3 || (shape[2] == 3 && shape[1] == topology().joints());
+    bool holds_positions(const hdf5::Shape& shape, bool either_is_stored) const {
+        return !how_.axes.empty() || shape.size() != 3 ||
+               (fits_positions(shape) && !(either_is_stored && fits_stored(shape)));
+    }
+
+    bool fits_positions(const hdf5::Shape& shape) const {
+        return shape.size() == 3 && shape[0] > 0 && shape[1] == topology().joints() && shape[2] == 3;
+    }
+    bool fits_stored(const hdf5::Shape& shape) const {
+        if (shape.size() != 3 || shape[0] == 0 || shape[2] == 0) return false;
+        const auto representation = usual(shape);
+        return shape[0] % representation.numbers() == 0 && shape[1] == representation.nodes(topology());
+    }
+
+    /// (3 P, joints, 3) may be three frames of the public layout, or 3 P frames of positions. They are what the file's other arrays
+    /// are; where there are no others, what the first person's limbs make them.
+    bool takes_either_as_stored(const hdf5::Reader& file, const std::vector<std::string>& keys) const {
+        std::optional<std::string> either;
+        bool positions = false;
+        for (const auto& key : keys) {
+            const auto shape = file.shape(key);
+            if (fits_stored(shape) && !fits_positions(shape)) return true;
+            if (fits_positions(shape) && !fits_stored(shape)) positions = true;
+            if (fits_positions(shape) && fits_stored(shape) && !either) either = key;
+        }
+        return either && !positions && topology().joints() > 1 && has_unit_limbs(first_person(file, *either));
+    }
+
+    /// Of an array (3 P, joints, 3), taken for three frames of limbs.
+    Motion first_person(const hdf5::Reader& file, const std::string& key) const {
+        const auto joints = topology().joints();
+        const auto rows = file.read_rows(key, 0, 3);
+        Motion motion{key, 3, 1, static_cast<std::uint32_t>(joints), 3, {}};
+        for (std::size_t t = 0; t < 3; ++t)
+            for (std::size_t k = 0; k < joints; ++k)
+                for (std::size_t d = 0; d < 3; ++d) motion.values.push_back(rows[(d * joints + k) * 3 + t]);
+        return motion;
     }
 
     /// Of motions that do not tell it: one more node than joints is that of the translation.

@@ -35,6 +35,7 @@ struct MotionFile {
     std::vector<float> bone_length;  ///< (persons, joints) of stored motions; empty: not told
     std::vector<float> rest;         ///< as in BodyModel
     std::string guess;  ///< how the axes of an array were taken that could be meant otherwise; empty: none
+    bool numbered_columns = false;  ///< as in CsvMotion
 };
 
 /// How to take arrays that do not say it.

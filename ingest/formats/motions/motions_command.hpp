@@ -19,7 +19,6 @@ inline constexpr std::string_view motions_examples =
     "--scale 0.001\n"
     "  actformer ingest motions kinect.npy -o kinect --topology ntu25 --axes nctkp --clean --labels "
     "labels.csv\n"
-    "  actformer ingest motions gta_combat_2p.h5 -o gta --topology gta22\n"
     "  actformer export ntu/ntu-1p -o ntu.h5 && actformer ingest motions ntu.h5 -o again\n"
     "Arrays hold (frames, joints, 3), (frames, persons, joints, 3), (clips, frames, joints, 3) or (clips, "
     "frames,\n"

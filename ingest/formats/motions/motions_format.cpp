@@ -7,9 +7,11 @@
 #include <unordered_set>
 
 #include "base/error.hpp"
+#include "base/text/counted.hpp"
 #include "base/text/first_few.hpp"
 #include "base/text/printable.hpp"
 #include "ingest/dataset/described_motions.hpp"
+#include "ingest/formats/motions/body_doubts.hpp"
 #include "ingest/formats/motions/position_clips.hpp"
 #include "ingest/formats/motions/topology_file.hpp"
 #include "ingest/formats/skeletal/up.hpp"
@@ -43,6 +45,21 @@ T commonest(const std::map<T, std::uint64_t>& counts) {
     return std::max_element(counts.begin(), counts.end(),
                             [](auto& a, auto& b) { return a.second < b.second; })
         ->first;
+}
+
+/// The largest difference between two rest skeletons along an axis, in metres.
+float rest_difference(const std::vector<float>& rest, const std::vector<float>& other) {
+    float most = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i) most = std::max(most, std::abs(rest[i] - other[i]));
+    return most;
+}
+
+/// But for the rounding of float32 and of texts.
+bool same_rest(const std::vector<float>& rest, const std::vector<float>& other) {
+    if (rest.size() != other.size()) return false;
+    float largest = 0;
+    for (const float x : other) largest = std::max(largest, std::abs(x));
+    return rest_difference(rest, other) <= 1e-4F * largest;
 }
 
 std::string place_of(const FoundMotion& motion, std::uint64_t clip) {
@@ -136,7 +153,8 @@ void MotionsFormat::settle_header() {
     else if (!options_.representation.empty())
         header.representation = Representation::named(options_.representation, "--representation");
     for (const auto& [index, file] : files_)
-        if (header.representation == Representation::rot6d && header.rest.empty()) header.rest = file.rest;
+        if (header.representation == Representation::rot6d && header.rest.empty() && !file.motions.empty())
+            header.rest = file.rest;
     if (header.representation == Representation::rot6d && header.rest.empty()) {
         const auto skeleton = generic_skeleton();
         if (header.topology.parents != smpl24().parents)
@@ -207,10 +225,11 @@ void MotionsFormat::settle_classes() {
 }
 
 void MotionsFormat::remark() {
-    std::vector<std::string> guesses;
+    std::vector<std::string> guesses, numbered;
     bool lengths = true;
     for (const auto& [index, file] : files_) {
         if (!file.guess.empty()) guesses.push_back(fmt::format("{}: {}", printable(file.path), file.guess));
+        if (file.numbered_columns) numbered.push_back(printable(file.path));
         for (const auto& motion : file.motions)
             lengths = lengths && (!motion.stored || !file.bone_length.empty());
     }
@@ -218,6 +237,11 @@ void MotionsFormat::remark() {
         remarks_.push_back(
             fmt::format("{} of (?, ?, joints, 3) taken by their lengths ({}); --axes says otherwise",
                         guesses.size() == 1 ? "an array" : "arrays", first_few(guesses)));
+    if (!numbered.empty())
+        remarks_.push_back(fmt::format(
+            "line 1 numbers the columns of {} ({}) and is no frame; where it is one, put a line of "
+            "names before it",
+            counted(numbered.size(), "file"), first_few(numbered)));
     if (!lengths && datasets_[0].representation == Representation::limb)
         remarks_.emplace_back("the files do not tell how long the limbs are: usual lengths are taken");
     if (names_)
@@ -269,10 +293,7 @@ class MotionsFormat::FileReader {
         for (const auto& [key, why] : file_.faults)
             reject(key.empty() ? why : fmt::format("'{}': {}", printable(key), why));
         if (file_.motions.empty()) return;
-        if (file_.topology && file_.topology->parents != header_.topology.parents) {
-            if (format_.options_.topology.empty())
-                return reject("its skeleton is not that of the first file");
-        }
+        if (auto why = other_skeleton(); !why.empty()) return reject(std::move(why));
         if (const auto fps = file_.fps;
             fps && format_.options_.fps == 0 && std::abs(*fps - header_.fps) > 1e-3)
             return reject(fmt::format("{:.6g} frames a second, not {:.6g} as most; --fps F takes all as F",
@@ -288,6 +309,27 @@ class MotionsFormat::FileReader {
   private:
     void reject(std::string reason, Rejection::Kind kind = Rejection::Kind::broken) {
         sink_.take(Rejection{kind, std::move(reason)});
+    }
+
+    /// Why the file's motions are not of the dataset's skeleton; empty where they are.
+    std::string other_skeleton() const {
+        if (file_.topology && format_.options_.topology.empty()) {
+            const auto &own = *file_.topology, &wanted = header_.topology;
+            if (own.parents != wanted.parents) return "its skeleton is not that of the first file";
+            for (std::size_t j = 0; j < wanted.joints(); ++j)
+                if (own.names[j] != wanted.names[j])
+                    return fmt::format(
+                        "its joint {} is {}, and {} in the first file; --topology takes joints by their "
+                        "order",
+                        j, in_quotes(own.names[j]), in_quotes(wanted.names[j]));
+        }
+        if (file_.rest.empty() || header_.rest.empty() || same_rest(file_.rest, header_.rest)) return {};
+        if (file_.rest.size() != header_.rest.size()) return "its skeleton is not that of the first file";
+        return fmt::format(
+            "its rest skeleton is not that of the first file: offsets differ by up to {:.2g} m; ingest it on "
+            "its "
+            "own",
+            rest_difference(file_.rest, header_.rest));
     }
 
     /// Calls `make` with each of the clips that names and labels make of a motion.
@@ -337,7 +379,22 @@ class MotionsFormat::FileReader {
         if (auto* rejection = std::get_if<Rejection>(&read)) return std::move(*rejection);
         auto out = std::make_unique<MotionClip>();
         out->take(std::get<ClipPositions>(std::move(read)));
+        add_body_doubts(*out, request);
         return out;
+    }
+
+    /// Of joint positions; those relative to the parents are limbs that need no length.
+    void add_body_doubts(PositionClip& clip, const PositionsRequest& request) const {
+        const auto joints = header_.topology.joints();
+        Motion motion{clip.name, clip.frames, request.persons, static_cast<std::uint32_t>(joints), 3, {}};
+        motion.values.swap(clip.values);
+        if (const auto height = height_of(motion, std::vector<float>(joints, 1)))
+            for (auto& doubt : body_doubts(*height, request)) clip.doubts.push_back(std::move(doubt));
+        clip.values.swap(motion.values);
+    }
+
+    std::optional<BodyHeight> height_of(const Motion& motion, const std::vector<float>& bone_length) const {
+        return body_height(motion, {header_.representation, header_.topology, bone_length, header_.rest});
     }
 
     void add_stored(const FoundMotion& found, const MotionsFile& file) {
@@ -375,9 +432,6 @@ class MotionsFormat::FileReader {
         if (span.empty())
             return Rejection{Rejection::Kind::dropped, "the labels cut out frames that are not there"};
         span.add_doubts(out->doubts);
-        if (!has_unit_limbs(motion) && file_.representation == Representation::limb)
-            out->doubts.emplace_back(
-                "limbs that are not of length 1: joint positions? --axes kct and the like takes them so");
         const auto row = std::size_t{motion.persons} * motion.nodes * motion.numbers;
         out->frames = span.last - span.first;
         out->stored = true;
@@ -385,9 +439,21 @@ class MotionsFormat::FileReader {
                             motion.values.end());
         motion.values.erase(motion.values.begin(),
                             motion.values.begin() + static_cast<std::ptrdiff_t>(span.first * row));
+        motion.frames = out->frames;
+        out->bone_length = lengths(file.details(found.key).bone_length, motion.values);
+        add_stored_doubts(*out, motion);
         out->values = std::move(motion.values);
-        out->bone_length = lengths(file.details(found.key).bone_length, out->values);
         return out;
+    }
+
+    /// Of a motion in the public layout.
+    void add_stored_doubts(PositionClip& clip, const Motion& motion) const {
+        if (file_.representation == Representation::limb && !has_unit_limbs(motion))
+            clip.doubts.emplace_back(
+                "limbs that are not of length 1: joint positions? --axes kct and the like takes them so");
+        else if (const auto height = height_of(motion, clip.bone_length))
+            for (auto& doubt : stored_body_doubts(*height, header_.topology))
+                clip.doubts.push_back(std::move(doubt));
     }
 
     /// The motion's own, else the file's, else those between its positions where it holds these, else usual ones.

@@ -26,6 +26,11 @@ double motion_of(const Body& body) {
            static_cast<double>(std::max<std::size_t>(body.times.size(), 1));
 }
 
+bool stands_still(const Body& body) {
+    const auto& limbs = body.limbs;
+    return std::equal(limbs.begin() + ntu_joints * 3, limbs.end(), limbs.begin());
+}
+
 std::vector<std::size_t> preferred(const std::vector<Body>& bodies, std::size_t persons, BodyRule rule) {
     std::vector<std::size_t> order(bodies.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -16,6 +16,9 @@ enum class BodyRule {
 /// axes.
 double motion_of(const Body& body);
 
+/// True where no number changes over the frames that show the body.
+bool stands_still(const Body& body);
+
 /// Indices of the `persons` bodies that the rule prefers, the best first; all where there are fewer. Ties go to the body that appears
 /// first. By motion, a body seen in fewer than `fleeting` frames comes after all others: noise of a few frames varies most.
 std::vector<std::size_t> preferred(const std::vector<Body>& bodies, std::size_t persons, BodyRule rule);

@@ -13,6 +13,7 @@
 #include "ingest/formats/ntu/name.hpp"
 #include "ingest/formats/ntu/skeleton_file.hpp"
 #include "ingest/formats/ntu/tracks.hpp"
+#include "ingest/formats/stillness.hpp"
 
 namespace actformer::ingest {
 namespace {
@@ -45,6 +46,7 @@ using ntu::label_of;
 
 constexpr auto zeros_doubt = "bodies or joints at 0 0 0 or NaN were not seen: filled from the frames around";
 constexpr auto tracks_doubt = "a body's tracking number changes: --join-tracks makes one body of such tracks";
+constexpr auto seldom_doubt = "persons seen in less than half of the frames: filled from the frames around";
 constexpr auto ghost_doubt =
     "a body that is left out moves more than one kept, perhaps a ghost: --bodies motion takes those that "
     "move most";
@@ -70,6 +72,16 @@ bool goes_on(const std::vector<std::size_t>& kept, const std::vector<std::vector
                    return std::find(kept.begin(), kept.end(), track) != kept.end();
                });
     });
+}
+
+/// Doubts about the bodies that are kept.
+void add_doubts(const SkeletonFile& file, std::vector<std::string>& doubts) {
+    std::vector<bool> still;
+    for (const auto& body : file.bodies) still.push_back(stands_still(body));
+    for (auto& doubt : stillness_doubts(file.frames, still)) doubts.push_back(std::move(doubt));
+    if (std::any_of(file.bodies.begin(), file.bodies.end(),
+                    [&](const Body& body) { return 2 * body.times.size() < file.frames; }))
+        doubts.emplace_back(seldom_doubt);
 }
 
 /// Keeps frames `first` to `last`, the latter not among them, and the bodies seen there.
@@ -206,6 +218,7 @@ bool NtuFormat::choose_bodies(SkeletonFile& file, std::size_t persons,
     std::vector<Body> bodies;
     for (const auto body : kept) bodies.push_back(std::move(file.bodies[body]));
     file.bodies = std::move(bodies);
+    add_doubts(file, doubts);
     return true;
 }
 

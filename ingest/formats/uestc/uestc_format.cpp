@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/pickle/pickle.hpp"
+#include "base/text/counted.hpp"
 #include "base/text/printable.hpp"
 #include "base/text/trimmed_lines.hpp"
 #include "ingest/formats/parsed.hpp"
@@ -93,10 +94,10 @@ class UestcFormat::Videos {
 
 void UestcFormat::survey(const RawText& raw) {
     if (!raw.ends_in(".txt")) return;
-    std::vector<std::string> lines;
-    for (const auto line : trimmed_lines(raw.text)) lines.push_back(printable(line));
+    List list{printable(raw.path), {}};
+    for (const auto line : trimmed_lines(raw.text)) list.lines.push_back(printable(line));
     const std::lock_guard lock(surveying_);
-    lists_.try_emplace(std::string(raw.stem), std::move(lines));
+    lists_[std::string(raw.stem)].emplace(raw.index, std::move(list));
 }
 
 const std::vector<std::string>& UestcFormat::list(const std::string& name) const {
@@ -109,7 +110,12 @@ const std::vector<std::string>& UestcFormat::list(const std::string& name) const
             name == "names"            ? "which video is which"
             : name == "num_frames_min" ? "how long videos are"
                                        : "the actions");
-    return found->second;
+    const auto& first = found->second.begin()->second;
+    for (const auto& [index, other] : found->second)
+        if (other.lines != first.lines)
+            throw Error("{}: other lines than in {}; give the folder or archive of one of them alone",
+                        other.path, first.path);
+    return first.lines;
 }
 
 void UestcFormat::settle() {
@@ -124,7 +130,7 @@ void UestcFormat::settle() {
     header.splits = splits();
     datasets_ = {std::move(header)};
     if (names_.size() != published)
-        remarks_.push_back(fmt::format("{} videos; UESTC has {}", names_.size(), published));
+        remarks_.push_back(fmt::format("{}; UESTC has {}", counted(names_.size(), "video"), published));
 }
 
 void UestcFormat::read(const RawText& raw, ClipSink& sink) const {

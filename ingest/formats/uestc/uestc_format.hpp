@@ -24,7 +24,7 @@ class UestcFormat : public Format {
     bool surveys_text_of(const RawText& raw) const override { return raw.ends_in(".txt"); }
     void survey(const RawText& raw) override;
 
-    /// Throws Error where one of the lists is not there, or they do not fit together.
+    /// Throws Error where one of the lists is not there, or there twice with other contents, or they do not fit together.
     void settle() override;
 
     const std::vector<DatasetHeader>& datasets() const override { return datasets_; }
@@ -42,6 +42,11 @@ class UestcFormat : public Format {
   private:
     class Videos;
 
+    /// A .txt file.
+    struct List {
+        std::string path;
+        std::vector<std::string> lines;
+    };
     const std::vector<std::string>& list(const std::string& name) const;
     ParsedClip parse(const Videos& videos, std::size_t video) const;
 
@@ -49,10 +54,9 @@ class UestcFormat : public Format {
     RotationalTarget target_;
     bool published_;
     std::mutex surveying_;
-    std::map<std::string, std::vector<std::string>, std::less<>>
-        lists_;                          ///< name of a .txt file -> its lines
-    std::vector<std::string> names_;     ///< of the videos, in the pickle's order
-    std::vector<std::uint64_t> frames_;  ///< of each that count
+    std::map<std::string, std::map<std::uint64_t, List>> lists_;  ///< by name, and by the file's index
+    std::vector<std::string> names_;                              ///< of the videos, in the pickle's order
+    std::vector<std::uint64_t> frames_;                           ///< of each that count
     std::vector<DatasetHeader> datasets_;
     std::vector<std::string> remarks_;
 };

@@ -47,6 +47,26 @@ TEST(LabelsFile, ReadsColumnsByName) {
     EXPECT_EQ(file.rows()[2].end, std::nullopt);
 }
 
+TEST(LabelsFile, LeavesOutBlanksAroundValues) {
+    const auto file = labels(
+        "name , label,  style\r\n"
+        "a, walk,slow \r\n"
+        "b\t,walk,\tvery  slow\n"
+        "  \n"
+        "c, \" walk, away \" ,\n"
+        "d,walk, ");
+    EXPECT_EQ(file.fields(), (Names{"action", "style"}));
+    ASSERT_EQ(file.rows().size(), 4U);
+    EXPECT_EQ(file.rows()[0].fields, (Names{"walk", "slow"}));
+    EXPECT_EQ(file.rows()[1].file, "b");
+    EXPECT_EQ(file.rows()[1].fields, (Names{"walk", "very  slow"}));
+    EXPECT_EQ(file.rows()[2].fields, (Names{" walk, away ", ""})) << "in quotes they are part of the value";
+    EXPECT_EQ(file.rows()[3].fields, (Names{"walk", ""}));
+    const auto tabs = labels("name\tlabel\tstyle\na\t walk \t\n");
+    EXPECT_EQ(tabs.rows()[0].fields, (Names{"walk", ""})) << "a tab between columns is no blank";
+    EXPECT_EQ(refusal("file,action\na,  \n"), "labels.csv: line 2: no action; give every row both");
+}
+
 TEST(LabelsFile, TakesAClassForTheActionWhereNoColumnIsCalledSo) {
     const auto alone = labels("name,class,style\na,walk,slow\n");
     EXPECT_EQ(alone.rows()[0].action, "walk");

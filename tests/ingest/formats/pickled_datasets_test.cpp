@@ -165,8 +165,10 @@ TEST_F(SampledOnDevice, HumanAct12Joints) {
     const auto summary = run(format, samples + "/humanact12");
     EXPECT_EQ(summary.left_out, (Left{{"dropped", 1}}));
     agree("humanact12-joints", samples + "/humanact12");
-    ASSERT_EQ(summary.remarks.size(), 1U);
-    expect_says(summary.remarks[0], "10 files; HumanAct12 was published with 1191");
+    std::string remarks;
+    for (const auto& remark : summary.remarks) remarks += remark + "\n";
+    expect_says(remarks, "10 files; HumanAct12 was published with 1191");
+    expect_says(remarks, "1 archive in ");
 }
 
 TEST_F(SampledOnDevice, HumanAct12JointsOfThePickleAreThoseOfTheArrays) {
@@ -446,6 +448,20 @@ TEST_F(UestcOnDevice, WithoutItsListsItSaysWhereTheyAre) {
     fs::remove(dir / "raw/info/names.txt");
     expect_says(fault(format),
                 "names.txt is not there, which tells which video is which; it is in the folder info");
+}
+
+TEST_F(UestcOnDevice, AListThatIsThereTwiceIsRefusedWhereTheTwoDiffer) {
+    add("old/names.txt", read_file(dir / "raw/info/names.txt"));
+    add("old/readme.txt", "of old");
+    add("readme.txt", "of today");
+    EXPECT_EQ(run(format).datasets[0].clips, 2U) << "one is as the other";
+    fs::remove_all(dir / "out");
+    add("old/names.txt", "a1_d0_p001_c1_color.avi\na1_d2_p003_c2_color.avi\n");
+    UestcFormat again("uestc", {});
+    EXPECT_EQ(fault(again),
+              fmt::format("{0}/old/names.txt: other lines than in {0}/info/names.txt; give the folder or "
+                          "archive of one of them alone",
+                          (dir / "raw").string()));
 }
 
 TEST_F(UestcOnDevice, VideosThatDoNotFitAreLeftOut) {

@@ -485,6 +485,23 @@ TEST_F(PipelineOnDevice, AnArchiveWithoutAFileOfTheFormatIsNamed) {
     EXPECT_NE(why.find((dir / "raw").string() + ": no .lines, .txt file in it"), std::string::npos) << why;
 }
 
+TEST_F(PipelineOnDevice, ArchivesAmongTheFilesAreToldOfWheneverItIsAskedFor) {
+    write_file(dir / "raw/a.lines", "x 1 2\n");
+    write_file(dir / "raw/b.tar.gz", "");
+    LineFormat format;
+    const std::string surveyed = "1 files surveyed";
+    const std::vector<std::string> told{
+        surveyed,
+        fmt::format("1 archive in {} is not read (b.tar.gz): give it as RAW too", (dir / "raw").string())};
+    EXPECT_EQ(run(format).remarks, told);
+    EXPECT_NE(read_file(dir / "out/ingest.json").find("(b.tar.gz)"), std::string::npos);
+    const auto again = run(format);
+    EXPECT_TRUE(again.was_complete);
+    EXPECT_EQ(again.remarks, told);
+    fs::remove(dir / "raw/b.tar.gz");
+    EXPECT_EQ(run(format).remarks, std::vector<std::string>{surveyed});
+}
+
 TEST_F(PipelineOnDevice, OriginIsToldInRawAndBesideIt) {
     write_file(dir / "raw/ORIGIN", "stand-in\n");
     write_file(dir / "raw/part/a.lines", "x 1 2\n");

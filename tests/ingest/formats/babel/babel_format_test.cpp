@@ -256,6 +256,20 @@ TEST_F(BabelOnDevice, CountsAndNamesWhatGivesNoClip) {
     EXPECT_TRUE(any_has(summary.remarks, "labels are those of several annotators: extra_train.json"));
 }
 
+TEST_F(BabelOnDevice, FilesInFoldersOfNoSubsetAreTakenAndTold) {
+    write_amass(dir / "raw/other/01/01_01_poses.npz", {});
+    write_amass(dir / "raw/CMU/01/01_02_poses.npz", {});
+    annotate({sequence(1, motion, "[" + label("a", R"(["walk"])", "") + "]", false),
+              sequence(2, "CMU/CMU/01/01_02_poses.npz", "[" + label("b", R"(["walk"])", "") + "]", false)});
+    EXPECT_TRUE(any_has(run().remarks,
+                        "1 file is matched by subject and trial alone (01/01_01_poses.npz): its folders name "
+                        "no subset of AMASS"));
+    EXPECT_EQ(Dataset(dir / "out").clips().size(), 2U);
+    fs::remove_all(dir / "out");
+    fs::rename(dir / "raw/other", dir / "raw/cmu");
+    EXPECT_FALSE(any_has(run().remarks, "subject and trial alone"));
+}
+
 TEST_F(BabelOnDevice, TellsThePackagesApart) {
     write_amass(dir / "raw/CMU/01/01_01_stageii.npz", {.numbers = 165, .rate = "mocap_frame_rate"});
     write_amass(dir / "raw/CMU/01/01_02_stageii.npz", {.numbers = 165, .rate = ""});

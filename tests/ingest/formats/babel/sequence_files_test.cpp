@@ -44,4 +44,7 @@ TEST(SequenceFiles, AreFoundUnderTheNamesOfAllYears) {
         {"KIT/4/walk_poses.npz", {}},
         {"walk_poses.npz", {}}};
     for (const auto& [path, sequences] : wanted) EXPECT_EQ(files.of(path), sequences) << path;
+    EXPECT_EQ(files.subset_of("cmu/BioMotionLab_NTroje/rub001/0005_treadmill_poses.npz"), "bmlrub");
+    EXPECT_EQ(files.subset_of("raw/v1.tar:3/walk_poses.npz"), "v1");
+    EXPECT_EQ(files.subset_of("other/KIT/walk_poses.npz"), "") << "there it is the subject";
 }

@@ -522,6 +522,34 @@ TEST(BvhFormat, WhatDoesNotMoveIsSaid) {
               Names{"nothing moves"});
 }
 
+/// Two persons in a file, whose roots are there along x.
+std::string two_roots(const std::vector<std::pair<int, int>>& roots) {
+    const auto one = person();
+    const auto begin = one.find("ROOT"), end = one.find("MOTION");
+    auto other = one.substr(begin, end - begin);
+    for (const char* name : {"Hips", "Spine", "LeftLeg"})
+        other = replaced(other, name, std::string(name) + "2");
+    auto text = one.substr(0, end) + other;
+    text += fmt::format("MOTION\nFrames: {}\nFrame Time: 0.1\n", roots.size());
+    for (const auto& [first, second] : roots) text += fmt::format("{} 0 0 0 0 {} 0 0 0 0\n", first, second);
+    return text;
+}
+
+TEST(BvhFormat, WhoOfSeveralPersonsDoesNotMoveIsSaid) {
+    const auto both = two_roots({{0, 0}, {1, 1}, {2, 2}});
+    const auto format = settled(options(), {{"walk_1.bvh", both}});
+    const auto doubts = [&](const std::string& text) {
+        return taken(read(*format, "walk_1.bvh", text))[0]->doubts;
+    };
+    EXPECT_EQ(doubts(both), Names{});
+    EXPECT_EQ(doubts(two_roots({{0, 0}, {1, 0}, {2, 0}})), Names{"person 2 does not move"});
+    EXPECT_EQ(doubts(two_roots({{5, 0}, {5, 1}, {5, 2}})), Names{"person 1 does not move"});
+    EXPECT_EQ(doubts(two_roots({{5, 0}, {5, 0}, {5, 0}})), Names{"nothing moves"});
+    EXPECT_EQ(doubts(two_roots({{5, 0}})), Names{"a single frame holds no motion"});
+    EXPECT_EQ(doubts(two_roots({{0, -500}, {1, 0}, {2, 1}, {3, 2}})),
+              Names{"the first frame is a jump, as from a reference pose; --skip-first 1 leaves it out"});
+}
+
 /// The roots of both persons of a clip of 3 frames and 3 joints, frame by frame.
 std::vector<float> root_x(const kernels::CleanedBatch& out) {
     std::vector<float> x;

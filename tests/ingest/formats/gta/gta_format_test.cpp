@@ -11,6 +11,7 @@
 #include "base/hdf5/writer.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/pipeline/pipeline.hpp"
+#include "tests/support/error_of.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/temp_dir.hpp"
 
@@ -171,6 +172,33 @@ TEST_F(GtaOnDevice, SaysWhatIsNoMotionOfItsLayout) {
         EXPECT_NE(said.find(reason), std::string::npos) << reason << "\n" << said;
 }
 
+TEST_F(GtaOnDevice, JointPositionsAreNoLimbs) {
+    fs::create_directories(dir / "raw");
+    {
+        hdf5::Writer file(dir / "raw/a.h5");
+        const std::size_t frames = 5;
+        const auto good = public_motion(2, frames);
+        auto relative = good, few = good, rough = good;
+        for (std::size_t i = 0; i < good.size(); ++i) {
+            const auto joint = i / frames % gta_joints;
+            if (joint == 0) continue;
+            relative[i] *= 0.3F + 0.03F * static_cast<float>(joint);  // as far from the root: 0.33 m to 0.93
+            if (joint < 20) few[i] = 0;
+            rough[i] *= 0.96F;
+        }
+        for (const auto& [name, values] : {std::pair("relative", relative), {"few", few}, {"rough", rough}})
+            file.write<float>(name, {6, gta_joints, frames}, std::span<const float>(values));
+        file.finish();
+    }
+    EXPECT_EQ(run(dir / "raw").left_out, (std::map<std::string, std::uint64_t>{{"broken", 1}}));
+    const auto said = read_file(dir / "out/rejected.csv");
+    EXPECT_NE(said.find("'relative': 0 of 210 limbs are unit vectors: joint positions? actformer ingest "
+                        "motions --topology gta22 takes them"),
+              std::string::npos)
+        << said;
+    EXPECT_EQ(Dataset(dir / "out/gta-2p").clips().size(), 2U);
+}
+
 TEST_F(GtaOnDevice, ReadsJta) {
     // Three persons who stand: 7 in all of four frames, 3 in two, 9 in one. In the camera's frame y points down.
     std::string rows;
@@ -208,6 +236,29 @@ TEST_F(GtaOnDevice, ReadsJta) {
             EXPECT_NEAR(dataset.bone_length(0)[p * gta_joints + 15], length, 1e-6);
         }
     }
+}
+
+TEST_F(GtaOnDevice, CountsThePersonsOfJtaWhoAreNeverSeenWhole) {
+    std::string rows;
+    for (const int frame : {1, 2})
+        for (const int person : {1, 2, 3, 4})
+            for (int joint = 0; joint < (person < 3 ? 22 : 21); ++joint)
+                rows += jta_row(frame, person, joint, person + 0.1 * frame, -0.07 * joint, 5) + ",";
+    rows.pop_back();
+    write_file(dir / "raw/seq.json", "[" + rows + "]");
+    const std::string left_out = "2 persons left out: never seen with all of JTA's 22 joints";
+    const auto summary = run(dir / "raw");
+    ASSERT_EQ(summary.doubts.size(), 1U);
+    EXPECT_EQ(summary.doubts[0].what, left_out);
+    EXPECT_EQ(summary.doubts[0].first, std::vector<std::string>{"seq"});
+    EXPECT_EQ(Dataset(dir / "out/gta-2p").clips().size(), 1U);
+    fs::remove_all(dir / "out");
+    options.persons = 2;
+    EXPECT_TRUE(run(dir / "raw").doubts.empty()) << "more were not asked for";
+    fs::remove_all(dir / "out");
+    options.persons = 3;
+    const auto why = test::error_of([&] { run(dir / "raw"); });
+    EXPECT_NE(why.find("2 of 3 persons seen; " + left_out), std::string::npos) << why;
 }
 
 TEST_F(GtaOnDevice, CountsJtaFilesOfOtherNumbersOfPersons) {

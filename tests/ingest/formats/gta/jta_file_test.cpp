@@ -33,10 +33,11 @@ TEST(JtaFile, GathersRowsInAnyOrder) {
             for (const int person : {900, 3}) rows += row(frame, person, joint) + ",\n";
         rows += row(6, 3, joint) + ",";
     }
-    rows += row(8, 3, 0) + "," + row(9, 900, 4);  // not all of the joints
+    rows += row(8, 3, 0) + "," + row(9, 900, 4) + "," + row(9, 41, 4);  // not all of the joints
     const auto said = read(" [" + rows + "]\n");
     const auto& file = std::get<JtaFile>(said);
-    EXPECT_EQ(file.frames, 5U);  // 5 to 9
+    EXPECT_EQ(file.frames, 5U);      // 5 to 9
+    EXPECT_EQ(file.incomplete, 1U);  // 41
     ASSERT_EQ(file.persons.size(), 2U);
     EXPECT_EQ(file.persons[0].id, 3);
     EXPECT_EQ(file.persons[0].times, (std::vector<std::uint32_t>{0, 1, 2}));

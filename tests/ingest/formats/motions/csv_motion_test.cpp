@@ -42,17 +42,32 @@ const double not_there = std::nan("");
 
 TEST(CsvMotion, ReadsALineAFrame) {
     for (const std::string text :
-         {"1,2,3,4,5,6\n7,8,9,10,11,12\n", "hx,hy,hz,kx,ky,kz\r\n1,2,3,4,5,6\r\n\r\n7,8,9,10,11,12",
-          "1;2;3;4;5;6\n7;8;9;10;11;12",
+         {"0,2,3,4,5,6\n7,8,9,10,11,12\n", "hx,hy,hz,kx,ky,kz\r\n0,2,3,4,5,6\r\n\r\n7,8,9,10,11,12",
+          "0;2;3;4;5;6\n7;8;9;10;11;12",
           "\xEF\xBB\xBF"
-          "1\t2\t3\t4\t5\t6\n7\t8\t9\t10\t11\t12",
-          "  1 2  3 4 5 6 \n7 8 9 10 11 12\n"}) {
+          "0\t2\t3\t4\t5\t6\n7\t8\t9\t10\t11\t12",
+          "  0 2  3 4 5 6 \n7 8 9 10 11 12\n"}) {
         const auto motion = read(text);
         EXPECT_EQ(motion.frames, 2U) << text;
         EXPECT_EQ(motion.persons, 1U);
-        expect_numbers(motion, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
+        EXPECT_FALSE(motion.numbered_columns) << text;
+        expect_numbers(motion, {0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});
     }
     expect_numbers(read("1,,nan,-4e-1,5,NaN\n"), {1, not_there, not_there, -0.4, 5, not_there});
+}
+
+TEST(CsvMotion, ALineThatNumbersTheColumnsIsNoFrame) {
+    for (const std::string header :
+         {"0,1,2,3,4,5\n", "1,2,3,4,5,6\r\n", "\"0\",\"1\",\"2\",\"3\",\"4\",\"5\"\n"}) {
+        const auto motion = read(header + "0,1,2,3,4,5\n1,2,3,4,5,6\n");
+        EXPECT_TRUE(motion.numbered_columns) << header;
+        EXPECT_EQ(motion.frames, 2U) << header;
+        expect_numbers(motion, {0, 1, 2, 3, 4, 5, 1, 2, 3, 4, 5, 6});
+    }
+    for (const std::string frame : {"0,1,2,3,4,6\n", "2,3,4,5,6,7\n", "0.0,1,2,3,4,5\n", ",0,1,2,3,4\n"})
+        EXPECT_EQ(read(frame).frames, 1U) << frame;
+    EXPECT_EQ(fault("0,1,2,3,4,5\n"), "line 1: no frame below the first line");
+    EXPECT_EQ(fault("0,1,2,3,4\n").substr(0, 17), "line 1: 5 numbers");
 }
 
 TEST(CsvMotion, ReadsALineAJoint) {

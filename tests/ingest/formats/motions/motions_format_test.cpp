@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -96,6 +98,36 @@ struct MotionsOnDevice : testing::Test {
     kernels::Device device;
     MotionsOptions options;
 };
+
+/// Attributes of motions of rotations: three joints of these names, each a place in its parent.
+std::function<void(hdf5::Writer&)> rotations(const Names& names, const std::vector<float>& rest) {
+    return [=](hdf5::Writer& file) {
+        file.attribute("representation", std::string("rot6d"));
+        file.attribute("parents", std::vector<std::int64_t>{-1, 0, 1});
+        file.attribute("names", names);
+        file.attribute("rest", rest);
+    };
+}
+
+/// (frames, joints, 3) positions of a leg that stands with its hips `height` over the floor, `up` being axis 0, 1 or 2.
+std::vector<double> standing(std::size_t frames, double height, std::size_t up) {
+    std::vector<double> out;
+    for (std::size_t t = 0; t < frames; ++t)
+        for (std::size_t j = 0; j < joint_count; ++j) {
+            std::array<double, 3> at{0.1 * height, 0.1 * height, 0.1 * height};
+            at[up] = height * static_cast<double>(joint_count - 1 - j) / (joint_count - 1);
+            at[(up + 1) % 3] += 0.001 * height * static_cast<double>(t * j);
+            out.insert(out.end(), at.begin(), at.end());
+        }
+    return out;
+}
+
+Names doubts_of(const IngestSummary& summary) {
+    Names out;
+    for (const auto& doubt : summary.doubts) out.push_back(doubt.what);
+    std::sort(out.begin(), out.end());
+    return out;
+}
 
 /// A clip's names and labels, as in "walk_1:walk".
 Names clips_of(const Dataset& dataset) {
@@ -291,6 +323,141 @@ TEST_F(MotionsOnDevice, RotationsAreToldByTheirNodes) {
         std::string::npos);
 }
 
+TEST_F(MotionsOnDevice, RotationsOfAnotherRestSkeletonAreLeftOut) {
+    const Names names{"hips", "knee", "foot"};
+    const std::vector<float> rest{0, 0.9F, 0, 0.05F, -0.45F, 0, 0, -0.4F, 0.1F};
+    auto longer = rest, rounded = rest;
+    for (auto& x : longer) x *= 1.5F;
+    for (auto& x : rounded) x *= 1.00001F;
+    const auto add = [this](const std::string& file, const std::string& clip, const auto& tell) {
+        add_public(file, {clip}, {6, joint_count + 1, 4}, tell);
+    };
+    add("a.h5", "A001_0", rotations(names, rest));
+    add("b.h5", "A001_1", rotations(names, longer));
+    add("c.h5", "A001_2", rotations(names, rounded));
+    add("d.h5", "A001_3", rotations({"hips", "foot", "knee"}, rest));
+    options.topology.clear();
+    run();
+    EXPECT_EQ(clips_of(made()), (Names{"A001_0:A001", "A001_2:A001"}));
+    EXPECT_EQ(made().header().rest, rest);
+    const auto rejected = read_file(dir / "out/rejected.csv");
+    EXPECT_NE(
+        rejected.find("its rest skeleton is not that of the first file: offsets differ by up to 0.45 m"),
+        std::string::npos)
+        << rejected;
+    EXPECT_NE(rejected.find("its joint 1 is 'foot', and 'knee' in the first file; --topology takes"),
+              std::string::npos)
+        << rejected;
+    options.topology = (dir / "skeleton.yaml").string();
+    run("by_order");
+    EXPECT_EQ(clips_of(made("by_order")), (Names{"A001_0:A001", "A001_2:A001", "A001_3:A001"}));
+}
+
+TEST_F(MotionsOnDevice, WhatFitsBothLayoutsIsWhatTheFilesOthersAre) {
+    std::vector<float> three;
+    const auto add_three = [&](hdf5::Writer& file) {
+        file.write<float>("three", {3, joint_count, 3}, three);
+    };
+    for (int i = 0; i < 27; ++i) three.push_back(static_cast<float>(i % 10) / 4);
+    add_public("stored.h5", {"long"}, {3, joint_count, 5}, add_three);
+    run("stored");
+    const auto stored = made("stored").motion(*made("stored").find("three"));
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < joint_count; ++k)
+            for (std::size_t t = 0; t < 3; ++t)
+                ASSERT_EQ(stored.at(t, 0, k)[c], three[(c * joint_count + k) * 3 + t]);
+    fs::remove(dir / "raw/stored.h5");
+    add_public("positions.h5", {"long"}, {7, joint_count, 3}, add_three);
+    run("positions");
+    const auto positions = made("positions").motion(*made("positions").find("three")).values;
+    expect_near(positions, limbs_of(std::vector<double>(three.begin(), three.end()).data(), 3, 1));
+}
+
+TEST_F(MotionsOnDevice, WhatFitsBothLayoutsAloneIsToldByItsLimbs) {
+    const auto random = add_public("a.h5", {"only"}, {6, joint_count, 3});
+    run("positions");
+    EXPECT_EQ(made("positions").motion(0).frames, 6U);
+    expect_near(made("positions").motion(0).values,
+                limbs_of(std::vector<double>(random.begin(), random.end()).data(), 6, 1));
+    fs::remove(dir / "raw/a.h5");
+    std::vector<float> limbs(3 * joint_count * 3);  // (3, joints, frames): each along one axis
+    for (std::size_t k = 0; k < joint_count; ++k)
+        for (std::size_t t = 0; t < 3; ++t) limbs[((k + t) % 3 * joint_count + k) * 3 + t] = 1;
+    hdf5::Writer file(dir / "raw/b.h5");
+    file.write<float>("only", {3, joint_count, 3}, limbs);
+    file.finish();
+    run("limbs");
+    const auto motion = made("limbs").motion(0);
+    for (std::size_t k = 0; k < joint_count; ++k)
+        for (std::size_t t = 0; t < 3; ++t)
+            for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(motion.at(t, 0, k)[c], (k + t) % 3 == c ? 1 : 0);
+}
+
+TEST_F(MotionsOnDevice, OtherUnitsAndAnotherAxisUpAreSaid) {
+    for (const char* name : {"a.npy", "b.npy"}) write_npy(name, {40, joint_count, 3}, standing(40, 900, 2));
+    const auto summary = run();
+    EXPECT_EQ(
+        doubts_of(summary),
+        (Names{"bodies point from the root to the head along z: where they do not lie, --up z turns them "
+               "upright",
+               "bodies taller than 4 m at 1 metres a unit: --scale 0.001 would make them about as tall as "
+               "a person"}));
+    EXPECT_EQ(summary.doubts[0].clips, 2U);
+    options.scale = 0.001;
+    options.up = "-z";
+    EXPECT_EQ(doubts_of(run("on_heads")), Names{"bodies stand on their heads: --up z turns them upright"});
+    options.up = "z";
+    EXPECT_EQ(doubts_of(run("mended")), Names{});
+    options.representation = "xyz";
+    EXPECT_EQ(doubts_of(run("xyz")), Names{});
+    options.scale = 0.00001;
+    EXPECT_EQ(
+        doubts_of(run("tiny")),
+        Names{"bodies smaller than 0.1 m at 1e-05 metres a unit: --scale 0.001 would make them about as "
+              "tall as a person"});
+}
+
+TEST_F(MotionsOnDevice, TheAxisThatIsUpIsTheArrays) {
+    write_npy("a.npy", {40, joint_count, 3}, standing(40, 0.9, 1));
+    EXPECT_EQ(doubts_of(run("right")), Names{});
+    options.up = "z";
+    EXPECT_EQ(
+        doubts_of(run("wrong")),
+        Names{"bodies point from the root to the head along y: where they do not lie, --up y turns them "
+              "upright"});
+    write_file(dir / "skeleton.yaml", "names: [a, b, c]\nparents: [-1, 0, 1]\n");
+    EXPECT_EQ(
+        doubts_of(run("untold")),
+        Names{"bodies are longest along y: where they do not lie, --up y or --up -y turns them upright"});
+}
+
+TEST_F(MotionsOnDevice, StoredMotionsThatLieAreSaidToo) {
+    std::vector<float> limbs(3 * joint_count * 5);
+    std::fill(&limbs[2 * joint_count * 5 + 5], limbs.data() + limbs.size(), -1.0F);  // z of knee and foot
+    fs::create_directories(dir / "raw");
+    hdf5::Writer file(dir / "raw/a.h5");
+    file.write<float>("A001_0", {3, joint_count, 5}, limbs);
+    file.finish();
+    EXPECT_EQ(doubts_of(run()),
+              Names{"bodies point from the root to the head along z: where they do not lie, turn the file's "
+                    "motions so that y is up; --up is for joint positions alone"});
+}
+
+TEST_F(MotionsOnDevice, FirstLinesThatNumberTheColumnsAreSaid) {
+    for (const char* name : {"a", "b"})
+        write_file(dir / "raw" / (std::string(name) + ".csv"),
+                   "0,1,2,3,4,5,6,7,8\n0,0.9,0,0,0.5,0,0,0,0\n0,0.9,0,0,0.5,0,0,0,0.1\n");
+    write_file(dir / "raw/c.csv", "0,0.9,0,0,0.5,0,0,0,0\n0,0.9,0,0,0.5,0,0,0,0.1\n");
+    const auto summary = run();
+    EXPECT_EQ(made().motion(0).frames, 2U);
+    ASSERT_EQ(summary.remarks.size(), 1U);
+    EXPECT_EQ(
+        summary.remarks[0],
+        fmt::format("line 1 numbers the columns of 2 files ({0}/a.csv, {0}/b.csv) and is no frame; where it "
+                    "is one, put a line of names before it",
+                    (dir / "raw").string()));
+}
+
 TEST_F(MotionsOnDevice, StoredLimbsAndPositionsShareADataset) {
     add_public("b.h5", {"A001_0"}, {3, joint_count, 4});
     const auto first = add_npy("a.npy", {5, joint_count, 3}), last = add_npy("c.npy", {6, joint_count, 3}, 3);
@@ -383,7 +550,7 @@ TEST_F(MotionsOnDevice, CleaningSmooths) {
 }
 
 TEST_F(MotionsOnDevice, WhatIsWrongIsNamedAndTheRestTaken) {
-    auto values = add_npy("sound.npy", {5, joint_count, 3});
+    auto values = add_npy("sound.npy", {5, joint_count, 3}, 2);  // bodies that turn this way and that
     add_npy("other.npy", {5, joint_count + 1, 3});
     write_npy("unseen.npy", {5, joint_count, 3}, std::vector<double>(5 * joint_count * 3, std::nan("")));
     write_file(dir / "raw/cut.npy", read_file(dir / "raw/sound.npy").substr(0, 300));

@@ -32,6 +32,15 @@ TEST(Bodies, MotionIsTheVarianceOfPositions) {
     EXPECT_NEAR(motion_of(arm), 5 * 0.25 * 0.25, 1e-6) << "two values 0.5 apart have variance 0.25^2";
 }
 
+TEST(Bodies, ThatDoNotMoveAreTold) {
+    EXPECT_TRUE(stands_still(swinging(20, 0)));
+    EXPECT_TRUE(stands_still(swinging(1, 0.1)));
+    EXPECT_FALSE(stands_still(swinging(20, 0.1)));
+    auto nods = swinging(20, 0);
+    nods.limbs.back() += 0.01F;
+    EXPECT_FALSE(stands_still(nods));
+}
+
 TEST(Bodies, ByFramesTheMostSeenComeFirstAndTiesGoToTheFirst) {
     const std::vector<Body> bodies{swinging(20, 1), swinging(30, 0), swinging(20, 2), swinging(30, 0)};
     EXPECT_EQ(preferred(bodies, 1, BodyRule::frames), (Indices{1}));

@@ -136,6 +136,34 @@ TEST_F(OwnNamesIngest, ABodyLeftOutForAJointThatIsNeverSeenIsSaid) {
         << summary.first_rejections[0];
 }
 
+TEST_F(OwnNamesIngest, PersonsWhoDoNotMoveOrAreHardlySeenAreSaid) {
+    constexpr std::size_t frames = 20;
+    const auto moving = test::always_seen("1", test::random_motion(frames, 1)),
+               still =
+                   test::always_seen("2", std::vector<test::Pose>(frames, test::random_motion(1, 2).front()));
+    const auto seen_in = [&](std::size_t some) {
+        auto body = test::always_seen("2", test::random_motion(frames, 3));
+        for (auto t = some; t < frames; ++t) body.frames[t] = std::nullopt;
+        return body;
+    };
+    write("hug_1.skeleton", test::skeleton_text(frames, {moving, still}));
+    write("hug_2.skeleton", test::skeleton_text(frames, {moving, seen_in(9)}));
+    write("hug_3.skeleton", test::skeleton_text(frames, {moving, seen_in(10)}));
+    auto also_still = still;
+    also_still.id = "3";
+    write("hug_4.skeleton", test::skeleton_text(frames, {still, also_still}));
+    auto command = named("{action}_{index}");
+    command.own.persons = 2;
+    std::map<std::string, std::vector<std::string>> said;
+    for (const auto& doubt : ingest(command).doubts) said[doubt.what] = doubt.first;
+    EXPECT_EQ(
+        said,
+        (std::map<std::string, std::vector<std::string>>{
+            {"nothing moves", {"hug_4"}},
+            {"person 2 does not move", {"hug_1"}},
+            {"persons seen in less than half of the frames: filled from the frames around", {"hug_2"}}}));
+}
+
 TEST_F(OwnNamesIngest, ALabelThatEndsBehindTheFileIsCutOffThereAndSaysSo) {
     write("take.skeleton", test::plain_clip(40, 5));
     test::write_file(dir_ / "labels.csv",
