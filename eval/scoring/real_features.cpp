@@ -43,7 +43,7 @@ fs::path features_cached_at(const FeatureExtractor& extractor, const WindowsOpti
                         info.platform, info.driver));
     key.add(describe(load_tiles(info)));
     if (dataset.header().centre_windows) key.add("|centred windows");
-    if (windows.joints == ingest::Joints::common15) key.add("|common joints");
+    if (windows.joints == ingest::Joints::common15) key.add("|common joints, centred windows");
     for (const auto& shard : dataset.shards()) key.add("|" + shard.checksum);
     for (const auto clip : dataset.split(windows.split)) key.add("|" + dataset.clips()[clip].name);
     return cache_folder() / "features" / (key.hex() + ".h5");

@@ -11,7 +11,7 @@ namespace actformer::ingest {
 /// What a reader sees of a motion's joints.
 enum class Joints {
     own,      ///< as the dataset has them
-    common15  ///< as CommonJoints has them
+    common15  ///< as CommonJoints has them, each window centred
 };
 
 /// Throws Error, naming `where`, for skeletons of which nobody knows which joints are the common ones.

@@ -42,7 +42,7 @@ kernels::ClipTable table_of(const Dataset& dataset, const std::vector<std::size_
     table.persons = dataset.header().persons;
     table.nodes = representation.nodes(topology_of(dataset, joints));
     table.numbers = representation.numbers();
-    if (dataset.header().centre_windows) {
+    if (dataset.header().centre_windows || joints == Joints::common15) {
         const auto moving = representation.moving(table.nodes);
         table.centring = kernels::Centring{moving.root, moving.first, moving.count};
     }

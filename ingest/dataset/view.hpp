@@ -27,7 +27,8 @@ const Topology& topology_seen(const Topology& own, Joints joints);
 Representation representation_of(const Dataset& dataset, Joints joints);
 const Topology& topology_of(const Dataset& dataset, Joints joints);
 
-/// Reads the clips of `split` ("all" for every clip) onto the device. Throws Error for a split that does not exist or holds no
+/// Reads the clips of `split` ("all" for every clip) onto the device. Windows of common joints are centred whatever the dataset says, as
+/// generated motions are by CommonJoints. Throws Error for a split that does not exist or holds no
 /// clip, for more frames than the device takes, and as CommonJoints does.
 View load_view(kernels::Device& device, const Dataset& dataset, const std::string& split,
                Joints joints = Joints::own);
