@@ -8,9 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files/file.hpp"
+#include "base/files/output.hpp"
+#include "base/text/counted.hpp"
 #include "base/text/csv.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/format.hpp"
 #include "cli/motion_options.hpp"
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
@@ -75,6 +78,14 @@ void print_table(const Clips& clips, const Names& names) {
     }
 }
 
+/// Says that it did, but of a stream, as standard output.
+void write_csv(const std::filesystem::path& path, const Clips& clips, const Names& names) {
+    const auto text = csv(clips, names);
+    write_whole(path, text);
+    if (!output_at(path).stream)
+        remark("{}: {}, {}\n", path.string(), counted(clips.size(), "clip"), bytes(text.size()));
+}
+
 void run(const ClassifyOptions& options) {
     if (!options.out.empty()) check_output(options.out);
     if (!options.force)
@@ -89,7 +100,7 @@ void run(const ClassifyOptions& options) {
     });
     progress.clear();
     const auto names = class_names(extractor.recogniser(), motions->info());
-    if (!options.out.empty()) write_whole(options.out, csv(clips, names));
+    if (!options.out.empty()) write_csv(options.out, clips, names);
     if (options.json)
         say_json(to_json(clips, names));
     else

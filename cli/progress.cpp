@@ -44,7 +44,8 @@ void Progress::update(double fraction, std::uint64_t count) {
     last_ = now;
 
     const double spent = std::chrono::duration<double>(now - start_).count();
-    const double rate = spent > 0 ? static_cast<double>(count - start_count_) / spent : 0;
+    const double rate =
+        spent > 0 && count > start_count_ ? static_cast<double>(count - start_count_) / spent : 0;
     const double gained = fraction - start_fraction_;
     const auto left =
         gained > 0 ? duration(spent * (1 - fraction) / gained) + " left" : std::string("starting");

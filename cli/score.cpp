@@ -29,6 +29,8 @@
 #include "eval/scoring/score.hpp"
 #include "ingest/dataset/dataset.hpp"
 #include "ingest/export/foreign.hpp"
+#include "kernels/sampler.hpp"
+#include "reports/same_path.hpp"
 
 namespace actformer::cli {
 namespace {
@@ -110,19 +112,23 @@ std::vector<std::uint32_t> labels_to_generate(const eval::WindowsOptions& real) 
     return {labels.begin(), labels.end()};
 }
 
-/// ACTOR's protocol: a motion for every clip of the real side, of its class, in 20 seeds; of more than 3,000 clips some.
+/// ACTOR's protocol: a motion for every window of the real side, of its class, in 20 seeds; for more than 3,000 windows some. So
+/// classes are as frequent on both sides.
 void ask_as_actor(const ScoreOptions& options, const eval::WindowsOptions& real,
                   eval::GeneratedRequest& wanted) {
     constexpr std::uint32_t most = 3000;
     if (options.per_class_given)
-        throw Error("--per-class: ACTOR's protocol makes a motion for every real clip; leave it out");
+        throw Error("--per-class: ACTOR's protocol makes a motion for every real window; leave it out");
     const ingest::Dataset dataset(real.dataset);
-    auto clips = dataset.split(real.split);
+    const auto clips = dataset.split(real.split);
+    std::vector<std::uint32_t> frames;
+    for (const auto clip : clips) frames.push_back(dataset.clips()[clip].frames);
+    auto windows = kernels::consecutive_windows(frames, real.window);
     std::mt19937_64 random(options.seed);
-    shuffle(clips, random);
-    const auto kept = std::min<std::size_t>(clips.size(), options.samples ? options.samples : most);
+    shuffle(windows, random);
+    windows.resize(std::min<std::size_t>(windows.size(), options.samples ? options.samples : most));
     std::map<std::uint32_t, std::uint32_t> counts;
-    for (std::size_t i = 0; i < kept; ++i) ++counts[dataset.clips()[clips[i]].label];
+    for (const auto& window : windows) ++counts[dataset.clips()[clips[window.clip]].label];
     wanted.labels.clear();
     for (const auto& [label, count] : counts) {
         wanted.labels.push_back(label);
@@ -207,7 +213,7 @@ void print_classes(const nlohmann::ordered_json& classes) {
     };
     say("\n{:<28}{:>8}{:>11}{:>12}{:>10}{:>10}\n", "class", "real", "generated", "accuracy %", "FID", "FIDa");
     for (const auto& c : classes)
-        say("{:<28}{:>8}{:>11}{:>12}{:>10}{:>10}\n", c["class"].get<std::string>().substr(0, 27),
+        say("{:<28.27}{:>8}{:>11}{:>12}{:>10}{:>10}\n", c["class"].get<std::string>(),
             c["real"].get<std::size_t>(), c["generated"].get<std::size_t>(), cell(c["accuracy"], 100),
             cell(c["fid"], 1), cell(c["fida"], 1));
 }
@@ -236,10 +242,9 @@ eval::Scored scored_by(const ScoreOptions& options, const eval::GenerateSets& ge
     const auto request = prepared(options, generate, work);
     kernels::Device device(options.device);
     Progress progress("score", "sequences", options.json);
-    auto scored =
-        eval::score_motions(request, device, [&](const std::string&, std::uint64_t done, std::uint64_t all) {
-            progress.update(static_cast<double>(done) / static_cast<double>(all), done);
-        });
+    auto scored = eval::score_motions(request, device, [&](std::uint64_t done, std::uint64_t all) {
+        progress.update(static_cast<double>(done) / static_cast<double>(all), done);
+    });
     progress.clear();
     return scored;
 }
@@ -260,6 +265,16 @@ void refuse_without_effect(const CLI::App& command, const ScoreOptions& options)
     if (!of_features && options.motions.recogniser.empty())
         refuse_given(command, {"--kid", "--fid-infinity", "--initial-noise"},
                      "takes a --recogniser that sees all persons; --single-recogniser alone gives FIDa");
+}
+
+/// The same file again is no second repeat.
+void refuse_repeats_given_twice(const ScoreOptions& options) {
+    const auto refuse = [](const char* option, const std::vector<fs::path>& files) {
+        if (const auto again = reports::given_twice(files))
+            throw Error("{}: {} is given twice; each file is a repeat", option, again->string());
+    };
+    refuse("--generated", options.generated);
+    refuse("--generated-features", options.features.generated);
 }
 
 bool are_own_scores(std::string_view bytes) {
@@ -361,10 +376,10 @@ void add_score(CLI::App& app, const eval::GenerateSets& generate) {
                      "Features of the generated side, with labels, each file a repeat")
         ->type_name("FEATURES.h5");
     command
-        ->add_option(
-            "--protocol", options->protocol,
-            "How a paper's tables are measured: actformer, or actor (a motion for every real clip, 20 seeds, "
-            "accuracy over all motions, 1.96 s / sqrt(n))")
+        ->add_option("--protocol", options->protocol,
+                     "How a paper's tables are measured: actformer, or actor (a motion for every real "
+                     "window, 20 seeds, "
+                     "accuracy over all motions, 1.96 s / sqrt(n))")
         ->check(CLI::IsMember({"actformer", "actor"}))
         ->capture_default_str();
     command
@@ -406,6 +421,7 @@ void add_score(CLI::App& app, const eval::GenerateSets& generate) {
         options->repeats_given = command->count("--repeats") > 0;
         options->per_class_given = command->count("--per-class") > 0;
         refuse_without_effect(*command, *options);
+        refuse_repeats_given_twice(*options);
         run(*options, generate);
     });
 }

@@ -6,6 +6,7 @@
 #include "base/hdf5/reader.hpp"
 #include "eval/gru/recogniser.hpp"
 #include "eval/stgcn/recogniser.hpp"
+#include "ingest/dataset/own_kind.hpp"
 #include "kernels/buffer.hpp"
 
 namespace actformer::eval {
@@ -37,8 +38,9 @@ std::string text_of(const hdf5::Reader& file, const std::string& attribute) {
 
 std::string kind_of(const std::filesystem::path& weights) {
     const hdf5::Reader file(weights);
-    if (file.has_attribute("model") && !file.has_attribute("channels"))
-        throw Error("{}: holds a generator; give a recogniser's training or its weights", weights.string());
+    if (!file.has_attribute("channels"))
+        ingest::refuse_other_file(file, weights.string(), ingest::own::recogniser,
+                                  "give a recogniser's training or its weights");
     return file.has_attribute("kind") ? text_of(file, "kind") : kinds[0].name;
 }
 

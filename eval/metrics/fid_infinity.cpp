@@ -26,6 +26,13 @@ std::size_t taken(std::size_t samples, double inverse_share) {
     return static_cast<std::size_t>(static_cast<double>(samples) / inverse_share);
 }
 
+/// Classes' numbers of samples.
+std::vector<std::size_t> sizes_of(const Orders& orders) {
+    std::vector<std::size_t> sizes;
+    for (const auto& order : orders) sizes.push_back(order.size());
+    return sizes;
+}
+
 Samples beginning(const Samples& from, const Orders& orders, double inverse_share) {
     std::vector<std::size_t> which;
     for (const auto& order : orders)
@@ -89,6 +96,12 @@ std::optional<double> mean_intercept(const std::vector<Subset>& subsets) {
 
 }  // namespace
 
+std::size_t in_smallest_subset(std::span<const std::size_t> counts) {
+    std::size_t out = 0;
+    for (const auto samples : counts) out += taken(samples, *std::rbegin(inverse_shares));
+    return out;
+}
+
 double intercept(std::span<const double> x, std::span<const double> y) {
     double mean_x = 0, mean_y = 0, along = 0, squares = 0;
     const auto n = static_cast<double>(x.size());
@@ -106,9 +119,7 @@ double intercept(std::span<const double> x, std::span<const double> y) {
 std::optional<ExtrapolatedFid> fid_infinity(const Samples& real, const Samples& generated, std::uint64_t seed,
                                             unsigned threads) {
     const auto of_real = shuffled(real, seed), of_generated = shuffled(generated, seed + 1);
-    const double smallest = *std::rbegin(inverse_shares);
-    if (beginning(real, of_real, smallest).size() < 2 ||
-        beginning(generated, of_generated, smallest).size() < 2)
+    if (in_smallest_subset(sizes_of(of_real)) < 2 || in_smallest_subset(sizes_of(of_generated)) < 2)
         return {};
     std::vector<Subset> subsets;
     for (const auto inverse : inverse_shares)

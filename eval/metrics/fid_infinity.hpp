@@ -14,6 +14,12 @@ namespace actformer::eval {
 /// One divided by the shares of every class that are taken on both sides, rounded down to whole samples.
 constexpr double inverse_shares[] = {1, 1.5, 2, 2.5, 3, 3.5, 4};
 
+/// Of classes with so many samples, how many the smallest subset takes.
+std::size_t in_smallest_subset(std::span<const std::size_t> counts);
+
+/// With fewer samples on a side the smallest subset has less than two of a class.
+constexpr std::size_t least_of_class = 8;
+
 struct ExtrapolatedFid {
     double whole = 0;  ///< of all samples
     std::optional<double>

@@ -22,8 +22,8 @@ const std::vector<Metric>& metrics() {
         {"limb_acceleration", "limb acceleration", "", 1, Direction::nearest_real},
         {"root_acceleration", "root acceleration", "", 1, Direction::nearest_real},
         {"root_speed", "root speed", "", 1, Direction::nearest_real},
-        {"foot_sliding", "foot sliding", "", 1, Direction::nearest_real},
-        {"root_distance", "root distance", "", 1, Direction::lower},
+        {"foot_sliding", "foot sliding", "m/s", 1, Direction::nearest_real},
+        {"root_distance", "root distance", "m", 1, Direction::lower},
     };
     return list;
 }

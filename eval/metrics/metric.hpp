@@ -20,7 +20,7 @@ enum class Direction {
 struct Metric {
     std::string_view name;     ///< in JSON, as in "fid_mean"
     std::string_view heading;  ///< for people, as in "FIDm"
-    std::string_view unit;     ///< of the value times `scale`: "%" or empty
+    std::string_view unit;     ///< of the value times `scale`: "%", "m", "m/s" or empty
     double scale = 1;          ///< a table shows the value times this
     Direction direction = Direction::lower;
 };

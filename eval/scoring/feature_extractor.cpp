@@ -2,6 +2,7 @@
 
 #include "base/checksum/checksum.hpp"
 #include "base/error.hpp"
+#include "base/text/counted.hpp"
 #include "eval/metrics/fid.hpp"
 #include "eval/run_weights.hpp"
 #include "eval/scoring/common_view.hpp"
@@ -69,12 +70,12 @@ void FeatureExtractor::check_classes(const MotionsInfo& motions) const {
     if (persons_ == Persons::apart) return;
     const auto& r = recogniser();
     if (!motions.classes.empty() && motions.classes.size() != r.classes)
-        throw Error("{}: has {} classes and the recogniser {} knows {}; choose one trained on such a dataset",
-                    motions.source, motions.classes.size(), r.source, r.classes);
+        throw Error("{}: has {} and the recogniser {} knows {}; choose one trained on such a dataset",
+                    motions.source, counted(motions.classes.size(), "class"), r.source, r.classes);
     for (std::size_t i = 0; i < motions.labels.size(); ++i)
         if (motions.labels[i] >= r.classes)
-            throw Error("{}: '{}' is of action {} and the recogniser {} knows {} classes", motions.source,
-                        motions.names[i], motions.labels[i] + 1, r.source, r.classes);
+            throw Error("{}: '{}' is of action {} and the recogniser {} knows {}", motions.source,
+                        motions.names[i], motions.labels[i] + 1, r.source, counted(r.classes, "class"));
 }
 
 void FeatureExtractor::begin_set(const MotionsInfo& motions) {

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/hdf5/reader.hpp"
 #include "eval/metrics/confusion.hpp"
+#include "ingest/dataset/own_kind.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -80,6 +81,8 @@ bool is_as_written(const std::filesystem::path& path) {
 StoredFeatures read_features(const std::filesystem::path& path) {
     const hdf5::Reader file(path);
     const auto where = path.string();
+    if (!file.has("features"))
+        ingest::refuse_other_file(file, where, ingest::own::features, "give what `actformer features` makes");
     StoredFeatures out;
     auto& samples = out.samples;
     const auto [count, dimensions] = matrix(file, "features", where);

@@ -69,7 +69,7 @@ struct GeneratedRequest {
     std::string device;        ///< of libtorch; empty: cpu
 };
 
-/// Makes those sets. What trains generators implements it; scoring does not know them.
+/// Makes those sets. model/ implements it; scoring knows no generators.
 using GenerateSets = std::function<std::vector<MotionSet>(const GeneratedRequest&)>;
 
 }  // namespace actformer::eval

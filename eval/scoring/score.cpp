@@ -109,6 +109,7 @@ class Sides {
         const auto file = file_of(set, first());
         make_missing(set);
         auto stored = read_features(file);
+        done_ += stored.names.size();
         lengths_.add(stored);
         if (repeat == 0 && !request_.keep.empty()) copy_whole(file, request_.keep / "generated.h5");
         auto out = observed(std::move(stored), set.name);
@@ -152,9 +153,11 @@ class Sides {
         if (single_ && real->info().persons < 2)
             throw Error("{}: has one person a clip, for which --single-recogniser has no use",
                         request_.real.dataset.string());
+        all_ += real->info().names.size() * (whole_ && single_ ? 2 : 1);
         for (const auto& set : request_.generated) {
             const auto motions = set.open();
             check_set(set, motions->info());
+            all_ += motions->info().names.size();
             views_.push_back(motions->info().view);
         }
     }
@@ -183,9 +186,10 @@ class Sides {
                 set.name);
     }
 
-    OnProgress tell(const std::string& what) const {
+    /// Of one pass over a side or a set, after those before it.
+    OnProgress tell() const {
         if (!progress_) return {};
-        return [this, what](std::uint64_t done, std::uint64_t all) { progress_(what, done, all); };
+        return [this](std::uint64_t done, std::uint64_t) { progress_(done_ + done, all_); };
     }
 
     WindowsOptions windows_for(const FeatureExtractor& extractor) const {
@@ -195,8 +199,10 @@ class Sides {
     }
 
     CachedFeatures real_features(FeatureExtractor& extractor, const char* elsewhere) {
-        return cached_features(extractor, windows_for(extractor), request_.work / elsewhere, device_,
-                               tell("real windows"));
+        auto out =
+            cached_features(extractor, windows_for(extractor), request_.work / elsewhere, device_, tell());
+        done_ += out.features.names.size();
+        return out;
     }
 
     fs::path file_of(const MotionSet& set, const FeatureExtractor& extractor) const {
@@ -250,14 +256,14 @@ class Sides {
                 missing.push_back({extractor, file_of(set, *extractor)});
         auto motions = set.open();
         if (!setup_ || !fits(*setup_, motions->info()) || is_kept(measures_of(set.key))) {
-            if (!missing.empty()) write_features(*motions, missing, tell(set.name));
+            if (!missing.empty()) write_features(*motions, missing, tell());
             return;
         }
         MeasuredSource measured(std::move(motions), *setup_, device_);
         if (missing.empty())
             while (!measured.next().rows.empty()) continue;
         else
-            write_features(measured, missing, tell(set.name));
+            write_features(measured, missing, tell());
         write_measures(measures_of(set.key), measured.measures());
     }
 
@@ -270,6 +276,7 @@ class Sides {
     std::optional<FeatureExtractor> whole_, single_;
     std::vector<std::string> classes_, views_, notes_;
     Lengths lengths_;
+    std::uint64_t done_ = 0, all_ = 0;  ///< sequences of all sides; done are those whose features are there
 };
 
 Json provenance_of_motions(const ScoreMotions& request, const Sides& sides, const std::string& device) {

@@ -44,7 +44,8 @@ struct Scored {
         notes{};  ///< of kept features that were damaged and have been made anew, a line each
 };
 
-using ScoreProgress = std::function<void(const std::string& what, std::uint64_t done, std::uint64_t all)>;
+/// Sequences that the recognisers are done with, of the real side and of all sets together.
+using ScoreProgress = std::function<void(std::uint64_t done, std::uint64_t all)>;
 
 /// Opens each recogniser once and shows it every set. Throws Error, one line, for whatever does not go together: as
 /// FeatureExtractor and the sources say; sides of other classes or dimensions; a one-person recogniser for one person's

@@ -6,6 +6,7 @@
 
 #include "base/text/first_few.hpp"
 #include "eval/metrics/diversity.hpp"
+#include "eval/metrics/fid_infinity.hpp"
 
 namespace actformer::eval {
 namespace {
@@ -87,6 +88,34 @@ void warn_of_floor(ScoreReport& report) {
             fmt::format("real samples against real ones come to an {} of {:.4g}: of {:.4g} much is "
                         "owed to few samples",
                         metric.heading, *at_best, got->mean));
+}
+
+/// As in "no FIDw at infinity"; empty where every repeat has the metric.
+std::string lacking(const ScoreReport& report, std::string_view name) {
+    const auto& metric = *find_metric(name);
+    const auto all = report.repeats.size();
+    const auto without = static_cast<std::size_t>(
+        std::ranges::count_if(report.repeats, [&](const Score& s) { return !value_of(s, metric); }));
+    if (without == 0) return {};
+    return fmt::format("no {}{}", metric.heading,
+                       without == all ? "" : fmt::format(" in {} of {} repeats", without, all));
+}
+
+void warn_of_fid_infinity(ScoreReport& report) {
+    std::vector<std::size_t> made;
+    for (std::size_t c = 0; c < report.classes.size(); ++c) made.push_back(fewest(report, c));
+    const auto on_both = [&](std::size_t c) { return std::min(report.real[c], made[c]); };
+    const auto most = std::ranges::max(all_indices(made.size()), {}, on_both);
+    if (const auto no = lacking(report, "fid_mean_infinity"); !no.empty())
+        report.warnings.push_back(
+            fmt::format("{}: it needs {} samples of a class on each side; {} comes nearest, with {} real and "
+                        "{} generated",
+                        no, least_of_class, report.classes[most], report.real[most], made[most]));
+    if (const auto no = lacking(report, "fid_whole_infinity"); !no.empty())
+        report.warnings.push_back(fmt::format(
+            "{}: it needs 2 samples on each side in a quarter of every class, rounded down, as {} "
+            "of one class give; there are {} real and {} generated",
+            no, least_of_class, in_smallest_subset(report.real), in_smallest_subset(made)));
 }
 
 std::optional<double> class_accuracy(const Score& score, std::size_t label) {
@@ -218,6 +247,7 @@ ScoreReport score_repeats(const Observed& real, std::vector<std::string> classes
     warn_of_collapse(report);
     warn_of_floor(report);
     warn_of_unmeasured(report);
+    if (options.fid_infinity) warn_of_fid_infinity(report);
     if (report.real_accuracy)
         if (auto warning = near_chance(*report.real_accuracy, report.classes.size()); !warning.empty())
             report.warnings.push_back(std::move(warning));

@@ -1,4 +1,4 @@
-// The ST-GCN on paper: its layers, and its tensors under the names of the public state_dict. Training (libtorch) and inference
+// The ST-GCN described without tensors: its layers, and its tensors under the names of the public state_dict. Training (libtorch) and inference
 // (OpenCL) both build the network from this. Source: Yan et al., "Spatial Temporal Graph Convolutional Networks for
 // Skeleton-Based Action Recognition" (AAAI 2018), and its public code.
 #pragma once

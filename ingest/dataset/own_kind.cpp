@@ -1,5 +1,6 @@
 #include "ingest/dataset/own_kind.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "base/error.hpp"
@@ -21,6 +22,14 @@ std::string_view kind_of_folder(const fs::path& folder) {
     if (holds(folder, "dataset.json")) return own::dataset;
     if (holds(folder, "results.json")) return own::sweep;
     return holds(folder, "synth.json") ? own::raw : std::string_view();
+}
+
+/// Arrays (P*C, K, T) alone, whoever wrote them.
+bool holds_motions(const hdf5::Reader& file) {
+    const auto names = file.names();
+    return !names.empty() && std::ranges::all_of(names, [&](const auto& name) {
+        return file.is_array(name) && file.shape(name).size() == 3;
+    });
 }
 
 }  // namespace
@@ -58,6 +67,13 @@ void refuse_other_than_motions(const hdf5::Reader& file, const std::string& wher
     const auto kind = own_kind(file);
     if (const auto found = remedies.find(kind); found != remedies.end())
         throw Error("{}: {}, not motions; {}", where, kind, found->second);
+}
+
+void refuse_other_file(const hdf5::Reader& file, const std::string& where, std::string_view wanted,
+                       std::string_view remedy) {
+    auto kind = own_kind(file);
+    if (kind.empty() && holds_motions(file)) kind = "motions";
+    if (!kind.empty() && kind != wanted) throw Error("{}: holds {}, not {}; {}", where, kind, wanted, remedy);
 }
 
 void refuse_other_folder(const fs::path& out, std::string_view wanted) {

@@ -29,6 +29,11 @@ std::string_view other_kind(const std::filesystem::path& path, std::string_view 
 /// Throws Error, with the remedy, for a file that this program wrote and that holds no motions.
 void refuse_other_than_motions(const hdf5::Reader& file, const std::string& where);
 
+/// Throws Error, "m.h5: holds motions, not features; REMEDY", where the file holds motions or another kind than `wanted`. A file of other
+/// contents is left to its reader.
+void refuse_other_file(const hdf5::Reader& file, const std::string& where, std::string_view wanted,
+                       std::string_view remedy);
+
 /// Throws Error where the folder to write into is a file, or holds another kind than `wanted`.
 void refuse_other_folder(const std::filesystem::path& out, std::string_view wanted);
 

@@ -119,7 +119,7 @@ TEST_F(Classify, TakesMotionsWithoutLabels) {
         writer.add(name, motion);
     }
     writer.finish();
-    const auto json = classified(at("m.h5") + " -o " + at("m.csv"));
+    const auto json = classified(at("m.h5") + " -o " + at("m.csv") + " 2>/dev/null");
     ASSERT_EQ(json.size(), 3U);
     for (const auto& row : json) {
         expect_row(row, expected.at(row["clip"]));
@@ -167,6 +167,15 @@ TEST_F(Classify, ReplacesItsTableAndNoFileOfOthers) {
     EXPECT_EQ(read_file(dir / "c.csv"), "clip,mark\nwalk,1\n");
     EXPECT_EQ(classify(to + " --force").exit, 0);
     EXPECT_EQ(classify(to + " --window 10").exit, 0) << "its own table, now";
+}
+
+TEST_F(Classify, NamesTheFileThatItWrote) {
+    const auto said = at("c.csv") + ": 48 clips, ";
+    EXPECT_NE(classify(toy().string() + " -o " + at("c.csv")).output.find(said), std::string::npos);
+    EXPECT_EQ(classify(toy().string()).output.find("48 clips"), std::string::npos);
+    const auto piped = classify(toy().string() + " -o /dev/stdout | cat");
+    EXPECT_EQ(piped.output.find("48 clips"), std::string::npos) << piped.output;
+    EXPECT_NE(piped.output.find("clip,windows,class"), std::string::npos) << piped.output;
 }
 
 TEST_F(Classify, TakesTheBestWeightsOfATraining) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -12,6 +13,8 @@
 #include "eval/metrics/confusion.hpp"
 #include "eval/scoring/features_file.hpp"
 #include "eval/scoring/measures_file.hpp"
+#include "eval/scoring/motions_file_source.hpp"
+#include "eval/scoring/score.hpp"
 #include "eval/stgcn/weights.hpp"
 #include "ingest/dataset/common_joints.hpp"
 #include "ingest/dataset/dataset.hpp"
@@ -237,6 +240,7 @@ void write_common_joints(const fs::path& folder) {
     }
     auto header = data.header();
     header.topology = ingest::common15();
+    header.centre_windows = true;
     write_dataset(folder, header, clips);
 }
 
@@ -337,6 +341,31 @@ TEST_F(Score, LeavesOutAndNamesClassesOfOneSample) {
     EXPECT_NE(json["warnings"][0].get<std::string>().find("A002 (1 real, 9 generated)"), std::string::npos);
 }
 
+TEST_F(Score, SaysWhatFidAtInfinityNeeds) {
+    features("r.h5", labels_of({7, 3}), 8, 2, 1);
+    features("g.h5", labels_of({5, 9}), 8, 2, 2);
+    features("enough.h5", labels_of({8, 3}), 8, 2, 3);
+    const auto scoring = [&](const std::string& real, const std::string& generated) {
+        return "--real-features " + at(real) + " --generated-features " + at(generated);
+    };
+    const auto few = scoring("r.h5", "g.h5");
+    const std::string of_mean =
+        "no FIDm at infinity: it needs 8 samples of a class on each side; A001 comes nearest, with 7 real "
+        "and 5 generated";
+    const std::string of_whole =
+        "no FIDw at infinity: it needs 2 samples on each side in a quarter of every class, rounded down, as "
+        "8 of one class give; there are 1 real and 3 generated";
+    const auto json = scored(few + " --fid-infinity");
+    EXPECT_FALSE(json.contains("fid_whole_infinity"));
+    for (const auto& warning : {of_mean, of_whole})
+        EXPECT_EQ(std::ranges::count(json["warnings"], nlohmann::json(warning)), 1) << json["warnings"];
+    EXPECT_NE(score(few + " --fid-infinity").output.find("warning: " + of_whole), std::string::npos);
+    EXPECT_EQ(score(few).output.find("at infinity"), std::string::npos) << "nobody asked for it";
+    const auto enough = scored(scoring("enough.h5", "enough.h5") + " --fid-infinity");
+    EXPECT_TRUE(enough.contains("fid_mean_infinity"));
+    EXPECT_EQ(enough["warnings"].dump().find("at infinity"), std::string::npos) << enough["warnings"];
+}
+
 TEST_F(Score, WarnsOfARecogniserNearChance) {
     features("r.h5", labels_of({300, 300, 300}));  // logits are random
     const auto result = score("--real-features " + at("r.h5") + " --generated-features " + at("r.h5"));
@@ -404,6 +433,56 @@ TEST_F(Score, KeepsTheRealSide) {
     EXPECT_EQ(nlohmann::json::parse(without.output), first) << "where there can be no cache";
 }
 
+TEST_F(Score, CutsNamesOfClassesAtACharacter) {
+    const auto text = [](std::size_t letters) {
+        std::string out;
+        while (letters-- > 0) out += "é";
+        return out;
+    };
+    fs::copy(datasets() / "ntu-2p", dir / "named", fs::copy_options::recursive);
+    auto description = nlohmann::ordered_json::parse(read_file(dir / "named/dataset.json"));
+    description.erase("checksum");  // as who edits it does
+    description.erase("program");
+    description["classes"][0] = text(20);
+    description["classes"][1] = text(30);
+    write_file(dir / "named/dataset.json", description.dump());
+    motions("m.h5", 2, 3, 2);
+    const auto result =
+        score("--recogniser " + at("two.h5") + " --real " + at("named") + " --generated " + at("m.h5"));
+    ASSERT_EQ(result.exit, 0) << result.output;
+    EXPECT_NE(result.output.find("\n" + text(20) + std::string(9, ' ')), std::string::npos) << result.output;
+    EXPECT_NE(result.output.find("\n" + text(27) + "  "), std::string::npos) << result.output;
+}
+
+TEST_F(Score, TellsHowManySequencesOfAllSetsAreDone) {
+    motions("few.h5", 2, 3);
+    motions("many.h5", 4, 6, 1, 2);
+    ::setenv("XDG_CACHE_HOME", at("cache").c_str(), 1);
+    kernels::Device device("");
+    eval::ScoreMotions request;
+    request.recogniser = at("one.h5");
+    request.real.dataset = datasets() / "ntu-1p";
+    for (const auto* name : {"many.h5", "few.h5"})
+        request.generated.push_back(eval::motions_in(dir / name, {0, 4, {}}));
+    const auto windows = eval::open_windows(device, request.real)->info().names.size();
+    const auto told = [&](const std::string& work) {
+        request.work = dir / work;
+        fs::create_directories(request.work);
+        std::vector<std::uint64_t> out;
+        eval::score_motions(request, device, [&](std::uint64_t done, std::uint64_t all) {
+            out.push_back(done);
+            EXPECT_EQ(all, windows + 24 + 6);
+        });
+        return out;
+    };
+    const auto first = told("first"), again = told("again");
+    ::unsetenv("XDG_CACHE_HOME");
+    EXPECT_TRUE(std::ranges::is_sorted(first)) << "one work, not three";
+    EXPECT_EQ(first.back(), windows + 24 + 6);
+    ASSERT_FALSE(again.empty());
+    EXPECT_EQ(again.front(), windows + 4) << "the real side's features were kept";
+}
+
 TEST_F(Score, ReplacesScoresAndNoFilesOfOthers) {
     features("real.h5", {0, 0, 1, 1, 2, 2});
     const auto scoring = "--real-features " + at("real.h5") + " --generated-features " + at("real.h5");
@@ -435,6 +514,17 @@ TEST_F(Score, RefusesOptionsWithoutEffect) {
         expect_refused("--single-recogniser " + at("one.h5") + " --real " + (datasets() / "ntu-2p").string() +
                            " --generated " + at("m.h5") + " " + option,
                        {option, "--recogniser that sees all persons"});
+}
+
+TEST_F(Score, RefusesOneFileAsTwoRepeats) {
+    motions("m.h5", 2, 3);
+    features("f.h5", {0, 0, 1, 1});
+    fs::create_symlink("m.h5", dir / "link.h5");
+    for (const auto* again : {"m.h5", "link.h5"})
+        expect_refused(one_person() + "--generated " + at("m.h5") + " " + at(again),
+                       {"--generated: " + at(again) + " is given twice; each file is a repeat"});
+    expect_refused("--real-features " + at("f.h5") + " --generated-features " + at("f.h5") + " " + at("f.h5"),
+                   {"--generated-features: " + at("f.h5") + " is given twice"});
 }
 
 TEST_F(Score, TakesNoMeasuresOfOtherWindows) {
@@ -588,6 +678,13 @@ TEST_F(Score, RefusesWhatDoesNotFit) {
     expect_refused("--recogniser " + at("more.h5") + " --real " + (datasets() / "ntu-1p").string() +
                        " --generated " + at("m.h5"),
                    {"classes", "more.h5"});
+    ingest::MotionsWriter one_class(dir / "class.h5");
+    auto subjects = ingest::subjects_of(ingest::Dataset(datasets() / "ntu-1p"));
+    subjects.classes.resize(1);
+    one_class.describe(subjects);
+    one_class.add("A001_0", made_motion(60, 1, 1));
+    one_class.finish();
+    expect_refused(one_person() + "--generated " + at("class.h5"), {"class.h5: has 1 class and the"});
     expect_refused(one_person() + "--generated " + at("none.h5"), {"none.h5"});
     expect_refused(one_person() + "--split nowhere --generated " + at("m.h5"), {"nowhere"});
     expect_refused("--recogniser " + at("gone.h5") + " --real " + (datasets() / "ntu-1p").string() +

@@ -39,6 +39,7 @@ TEST(Metrics, HaveNamesOfTheirOwnAndValues) {
 TEST(Metrics, HaveTheirUnitsInHeadings) {
     EXPECT_EQ(heading_with_unit(*find_metric("accuracy")), "accuracy %");
     EXPECT_EQ(heading_with_unit(*find_metric("fid_mean")), "FIDm");
+    EXPECT_EQ(heading_with_unit(*find_metric("foot_sliding")), "foot sliding m/s");
 }
 
 TEST(Metrics, SayWhichWayIsBetter) {
