@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -133,14 +134,18 @@ std::string refused_number(const CLI::Option& option, std::string_view value) {
     return fmt::format("{}: {}", option.get_name(), is_not(value, wanted));
 }
 
-std::string missing_value(const CLI::Option& option) {
+/// What an option takes, as in " (DIR)"; empty where its type does not tell.
+std::string taken_by(const CLI::Option& option) {
     auto type = option.get_type_name();
     if (is_unsigned(option) || type.starts_with("INT") || type.starts_with("FLOAT"))
         type = numbers_of(option);
     else if (type.starts_with("TEXT"))
         type.erase(0, std::string_view("TEXT:").size());
-    return fmt::format("{}: a value is missing{}", option.get_name(),
-                       type.empty() ? "" : fmt::format(" ({})", type));
+    return type.empty() ? "" : fmt::format(" ({})", type);
+}
+
+std::string missing_value(const CLI::Option& option) {
+    return fmt::format("{}: a value is missing{}", option.get_name(), taken_by(option));
 }
 
 /// CLI11's sentence on an option, in words of ours; one that has none stays.
@@ -185,23 +190,53 @@ std::string known_problem(const CLI::App& app, const CLI::App& command, const CL
     return fmt::format("no command is given; there are {}", fmt::join(commands, ", "));
 }
 
-/// Of every command's unsigned options. CLI11 takes -1, and what is too large, for the largest number of all, and 010 for 8: here the
-/// first two are refused, and the third is 10.
-void refuse_signs(CLI::App& app) {
-    for (auto* option : app.get_options()) {
-        if (!is_unsigned(*option)) continue;
-        const auto read = [option](std::string& text) -> std::string {
-            const auto digits = std::string_view(text).substr(text.starts_with('+') ? 1 : 0);
-            std::uint64_t number = 0;
-            const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-            if (error != std::errc() || end != digits.data() + digits.size())
-                return is_not(text, numbers_of(*option));
-            text = std::to_string(number);
-            return {};
-        };
-        option->transform(CLI::Validator(read, ""));
+/// CLI11 takes -1, and what is too large, for the largest number of all, and 010 for 8: here the first two are refused, and the third
+/// is 10.
+CLI::Validator whole_number(const CLI::Option& option) {
+    const auto read = [&option](std::string& text) -> std::string {
+        const auto digits = std::string_view(text).substr(text.starts_with('+') ? 1 : 0);
+        std::uint64_t number = 0;
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+        if (error != std::errc() || end != digits.data() + digits.size())
+            return is_not(text, numbers_of(option));
+        text = std::to_string(number);
+        return {};
+    };
+    return {read, ""};
+}
+
+/// An empty value comes of a shell's variable that is not set.
+CLI::Validator not_empty(const CLI::Option& option) {
+    const auto check = [&option](const std::string& text) -> std::string {
+        if (!text.empty()) return {};
+        return fmt::format("is empty; give a value{}{}", taken_by(option),
+                           option.get_required() ? "" : " or leave it out");
+    };
+    return {check, ""};
+}
+
+/// Before the checks that the options of every command have.
+void check_values(CLI::App& app) {
+    for (auto* option : app.get_options())
+        if (option->get_type_size_max() > 0)
+            option->transform(is_unsigned(*option) ? whole_number(*option) : not_empty(*option));
+    for (auto* command : app.get_subcommands([](const CLI::App*) { return true; })) check_values(*command);
+}
+
+/// The last one first, as CLI11 reads them. It takes the next word for the value of "--out=", which is empty here.
+std::vector<std::string> reversed_words(int argc, char** argv) {
+    std::vector<std::string> words;
+    bool options = true;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        options = options && word != "--";
+        const bool is_bare =
+            options && word.size() > 3 && word.starts_with("--") && word.find('=') == word.size() - 1;
+        words.push_back(is_bare ? word.substr(0, word.size() - 1) : word);
+        if (is_bare) words.emplace_back();
     }
-    for (auto* command : app.get_subcommands([](const CLI::App*) { return true; })) refuse_signs(*command);
+    std::ranges::reverse(words);
+    return words;
 }
 
 }  // namespace
@@ -234,9 +269,9 @@ int parse(int argc, char** argv, const std::function<void(CLI::App&)>& add_comma
         ->callback([&app] { fmt::print("{}\n", to_json(help_of(app)).dump()); });
     app.get_formatter()->column_width(34);
     add_commands(app);
-    refuse_signs(app);
+    check_values(app);
     try {
-        app.parse(argc, argv);
+        app.parse(reversed_words(argc, argv));
     } catch (const CLI::Success& e) {
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
@@ -261,6 +296,12 @@ int closed_output() {
     return 1;
 }
 
+/// Without the library's words around it.
+std::string told(const std::filesystem::filesystem_error& error) {
+    const auto path = error.path1().string(), reason = error.code().message();
+    return path.empty() ? reason : fmt::format("{}: {}", path, reason);
+}
+
 /// After what was printed before, also where both go into one file.
 int failed(const std::string& why) {
     std::fflush(stdout);
@@ -276,13 +317,13 @@ std::string problem_of(std::vector<std::string> words,
     app.name("actformer");
     app.require_subcommand(1);
     add_commands(app);
-    refuse_signs(app);
+    check_values(app);
     forget_callbacks(app);
     std::vector<char*> arguments;
     for (auto& word : words) arguments.push_back(word.data());
     const int count = static_cast<int>(arguments.size());
     try {
-        app.parse(count, arguments.data());
+        app.parse(reversed_words(count, arguments.data()));
     } catch (const CLI::Success&) {
         return "help is asked for, and nothing done";
     } catch (const CLI::ParseError& e) {
@@ -306,6 +347,8 @@ int run_program(int argc, char** argv, const std::function<void(CLI::App&)>& add
     return failed(std::string(file ? file->what() : "not enough memory") +
                   "; fewer --threads or a smaller --batch, where there is one, take less, and limits may be "
                   "raised (ulimit -v)");
+} catch (const std::filesystem::filesystem_error& e) {
+    return failed(told(e));
 } catch (const std::system_error& e) {  // of fmt::print, where standard output is a pipe that nobody reads
     return e.code() == std::errc::broken_pipe ? 128 + SIGPIPE : failed(e.what());
 } catch (const std::exception& e) {

@@ -10,6 +10,7 @@
 #include "base/threads/parallel.hpp"
 #include "kernels/buffer.hpp"
 #include "kernels/memory_pool.hpp"
+#include "kernels/pocl_cache.hpp"
 #include "kernels/program_cache.hpp"
 #include "kernels/sources.hpp"
 
@@ -85,11 +86,17 @@ std::vector<DeviceInfo> list_devices() {
 }
 
 std::size_t choose_device(const std::vector<DeviceInfo>& devices, std::string_view wish) {
-    if (devices.empty())
+    if (devices.empty()) {
+        if (const auto cache = unwritable_pocl_cache(); !cache.empty())
+            throw Error(
+                "no OpenCL device: PoCL cannot write its cache folder {}; "
+                "let POCL_CACHE_DIR name a folder that can be written",
+                cache.string());
         throw Error(
             "no OpenCL device: install a driver (on Debian without a GPU: apt install pocl-opencl-icd); "
             "where there "
             "is one, limits on memory and open files keep it out (ulimit -v, ulimit -n)");
+    }
     const char* from = "";
     if (wish.empty()) {
         if (const char* set = std::getenv("ACTFORMER_DEVICE"); set && *set) {

@@ -29,6 +29,15 @@ Descriptor lock_on(const fs::path& folder) {
     return {};
 }
 
+fs::path system_place() {
+    std::error_code error;
+    auto place = fs::temp_directory_path(error);
+    if (!error) return place;
+    const char* set = std::getenv("TMPDIR");
+    throw Error("{}: no folder for temporary files ({}); let TMPDIR name one", set ? set : "/tmp",
+                error.message());
+}
+
 /// Removes what processes left that are no more: nobody holds it.
 void remove_stale(const fs::path& below) {
     std::error_code error;
@@ -44,7 +53,7 @@ void remove_stale(const fs::path& below) {
 }  // namespace
 
 Scratch::Scratch(const std::string& purpose, const fs::path& where) {
-    const auto below = where.empty() ? fs::temp_directory_path() : where;
+    const auto below = where.empty() ? system_place() : where;
     remove_stale(below);
     const auto make = [&]() -> fs::path {
         auto name = (below / (scratch_prefix + purpose + "-XXXXXX")).string();

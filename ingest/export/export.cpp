@@ -8,6 +8,7 @@
 #include "base/files/file.hpp"
 #include "base/text/printable.hpp"
 #include "base/text/suggestion.hpp"
+#include "ingest/dataset/own_kind.hpp"
 #include "ingest/export/export_format.hpp"
 #include "ingest/export/fit_name.hpp"
 #include "ingest/export/foreign.hpp"
@@ -91,6 +92,14 @@ std::string how_to_read_back(const std::vector<std::string>& files, const std::v
            "them back with a table of them";
 }
 
+/// Whether `path` is `input` or one of its shards, through links too.
+bool is_read(const fs::path& path, const fs::path& input) {
+    std::error_code unread;
+    if (fs::equivalent(path, input, unread)) return true;
+    return fs::equivalent(fs::canonical(path, unread).parent_path(), input, unread) &&
+           own_kind(path) == own::shard;
+}
+
 class Export {
   public:
     Export(const ExportRequest& request, const ClipSource& source, Target target, std::size_t first)
@@ -148,6 +157,7 @@ class Export {
 
     void into_folder(const std::vector<std::size_t>& picks,
                      const std::function<void(std::size_t, std::size_t)>& progress) {
+        refuse_other_folder(request_.out, "exported motions");
         std::vector<std::string> clips;
         for (const auto i : picks) clips.push_back(source_.clips()[i].name);
         const auto names = fit_names(clips, NameFor::file);
@@ -174,6 +184,9 @@ class Export {
 
     void check_replaces(const fs::path& path) const {
         if (!request_.force) refuse_foreign(path);
+        for (const auto& input : {source_.path(), request_.bones, request_.body})
+            if (is_read(path, input))
+                throw Error("{}: is an input of this export; choose another -o", path.string());
     }
 
     void add(ExportFile& file, std::size_t clip) {

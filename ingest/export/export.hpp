@@ -27,8 +27,8 @@ struct ExportSummary {
 };
 
 /// Calls `progress(clips done, of how many)` after every clip. A file appears whole or not at all; one clip is in memory at
-/// a time. Throws Error for a format that there is none of, several clips where one fits a file, a body where none fits, and as open_clips,
-/// selected, read_smpl_body and refuse_foreign do.
+/// a time. Throws Error for a format that there is none of, several clips where one fits a file, a body where none fits, an output that is
+/// an input too, and as open_clips, selected, read_smpl_body, refuse_foreign and refuse_other_folder do.
 ExportSummary export_clips(const ExportRequest& request,
                            const std::function<void(std::size_t, std::size_t)>& progress = {});
 

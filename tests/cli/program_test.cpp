@@ -67,11 +67,12 @@ TEST(Program, MixesNoSyntheticClipsWithOthers) {
     ASSERT_EQ(synth(four).exit, 0);
     EXPECT_EQ(synth(four).exit, 0) << "the same call again";
     EXPECT_EQ(synth(" --clips 6 --actions 9,10").exit, 0) << "a set can grow";
-    expect_refused(synth(four), {"raw: holds 2 .skeleton files that these options do not make", "-o"});
+    expect_refused(synth(four),
+                   {"raw: holds 2 .skeleton files that these options do not make", "-o", "the --seed, the"});
     expect_refused(synth(" --clips 6 --actions 9"), {"A010.skeleton"});
     write_file(dir / "real/S001C001P001R001A009.skeleton", "1");
     expect_refused(run_actformer("synth ntu -o " + (dir / "real").string() + " --clips 6 --actions 9,10"),
-                   {"real: holds 1 .skeleton file", "S001C001P001R001A009.skeleton"});
+                   {"real: holds 1 .skeleton file that these", "S001C001P001R001A009.skeleton"});
     EXPECT_FALSE(std::filesystem::exists(dir / "real/ORIGIN")) << "they are recorded still";
 }
 
@@ -131,6 +132,43 @@ TEST(Program, SaysWhichWordIsMissingOrOneTooMany) {
         {"bench score --peer nowhere.py", "--peer: File does not exist: nowhere.py"},
     };
     for (const auto& one : cases) expect_refused(run_actformer(one.typed), {one.answer});
+}
+
+TEST(Program, RefusesEmptyValues) {
+    const struct {
+        const char *typed, *answer;
+    } cases[] = {
+        {"score -o ''",
+         "--out: is empty; give a value (SCORES.json) or leave it out (see actformer score --help)"},
+        {"score --out= --json", "--out: is empty; give a value (SCORES.json) or leave it out"},
+        {"score --keep-features ''", "--keep-features: is empty; give a value (DIR) or leave it out"},
+        {"ingest bvh a -o ''", "--out: is empty; give a value (DIR) (see actformer ingest bvh --help)"},
+        {"synth ntu -o ''", "--out: is empty; give a value (see"},
+        {"synth ntu -o x --actions ''", "--actions: is empty; give a value or leave it out"},
+        {"synth ntu -o x --seed ''", "--seed: '' is not a whole number from 0"},
+        {"inspect ''", "dataset: is empty; give a value (DATASET|MOTIONS.h5)"},
+    };
+    for (const auto& one : cases) expect_refused(run_actformer(one.typed), {one.answer});
+}
+
+TEST(Program, SaysWhatTheSystemSaysOfAPath) {
+    const TempDir dir;
+    const auto loop = (dir / "loop").string();
+    std::filesystem::create_symlink("loop", loop);
+    const auto result = run_actformer("inspect " + loop);
+    EXPECT_EQ(result.exit, 1);
+    EXPECT_EQ(result.output, "actformer: " + loop + ": Too many levels of symbolic links\n");
+    expect_refused(run_command("TMPDIR=/nonexistent " + program() +
+                               " score --real-features a.h5 --generated-features b.h5"),
+                   {"actformer: /nonexistent: no folder for temporary files", "let TMPDIR name one"});
+}
+
+TEST(Program, RefusesAKeyOfTheConfigurationThatIsGivenTwice) {
+    if (!std::filesystem::exists(program() + "-train")) GTEST_SKIP() << "built without libtorch";
+    for (const auto* command : {"model recogniser-small", "train recogniser -c recogniser-small -o x",
+                                "bench train --method actor"})
+        expect_refused(run_actformer(std::string(command) + " width=0.3 batch=2 width=0.4"),
+                       {"actformer: 'width=0.4': width is given twice\n"});
 }
 
 TEST(Program, SaysHowAKeyOfTheConfigurationIsWritten) {

@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
+#include <optional>
 
 #include "kernels/buffer.hpp"
 #include "kernels/program_cache.hpp"
+#include "tests/support/error_of.hpp"
+#include "tests/support/temp_dir.hpp"
 
 using namespace actformer;
 using kernels::DeviceInfo;
@@ -26,6 +30,22 @@ std::vector<DeviceInfo> three_devices() {
     devices[2].memory = 80ULL << 30;
     return devices;
 }
+
+/// A variable of the environment, as it was before at the end.
+class Variable {
+  public:
+    explicit Variable(const char* name) : name_(name) {
+        if (const char* value = std::getenv(name)) before_ = value;
+    }
+    ~Variable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+    void set(const std::string& value) const { setenv(name_, value.c_str(), 1); }
+
+  private:
+    const char* name_;
+    std::optional<std::string> before_;
+};
 
 struct Choice : testing::Test {
     void SetUp() override { unsetenv("ACTFORMER_DEVICE"); }
@@ -67,6 +87,28 @@ TEST_F(Choice, NamesWhatThereIsWhenNothingFits) {
             EXPECT_NE(std::string(e.what()).find("2 Large GPU"), std::string::npos) << e.what();
         }
     EXPECT_THROW(kernels::choose_device({}, ""), Error);
+}
+
+TEST_F(Choice, NamesPoclsCacheWhereItCannotBeWritten) {
+    const test::TempDir dir;
+    test::write_file(dir / "pocl/pocl.icd", "");
+    test::write_file(dir / "others/other.icd", "");
+    test::write_file(dir / "file", "");
+    const auto at = [&](const std::string& name) { return (dir / name).string(); };
+    const auto said = [] { return test::error_of([] { kernels::choose_device({}, ""); }); };
+    const Variable drivers("OCL_ICD_VENDORS"), pocl("POCL_CACHE_DIR"), user("XDG_CACHE_HOME");
+    drivers.set(at("pocl"));
+    pocl.set(at("file/own"));
+    EXPECT_EQ(said(), "no OpenCL device: PoCL cannot write its cache folder " + at("file/own") +
+                          "; let POCL_CACHE_DIR name a folder that can be written");
+    pocl.set("");
+    user.set(at("file"));
+    EXPECT_NE(said().find(at("file/pocl/kcache") + "; let POCL_CACHE_DIR"), std::string::npos) << said();
+    drivers.set(at("others"));
+    EXPECT_NE(said().find("install a driver"), std::string::npos) << said();
+    drivers.set(at("pocl"));
+    user.set(at("cache"));
+    EXPECT_NE(said().find("install a driver"), std::string::npos) << said();
 }
 
 TEST(Device, RunsAKernelFromSourceOverAnyRange) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/text/counted.hpp"
 #include "base/threads/parallel.hpp"
 #include "ingest/formats/ntu/actions.hpp"
 #include "ingest/synth/folder.hpp"
@@ -36,8 +37,8 @@ std::vector<int> checked_actions(const NtuOptions& options) {
     for (const int a : actions) ntu::action_name(a);  // refuses what is no action
     if (const auto most = actions.size() * clips_per_action; options.clips > most)
         throw Error(
-            "{} clips: {} actions have at most {} clips with names of their own ({} each); ask for fewer",
-            options.clips, actions.size(), most, clips_per_action);
+            "{} clips: of {} there are at most {} clips with names of their own ({} each); ask for fewer",
+            options.clips, counted(actions.size(), "action"), most, clips_per_action);
     if (options.clips == 0) throw Error("0 clips: ask for at least one");
     return actions;
 }
@@ -53,9 +54,9 @@ void refuse_other_clips(const NtuOptions& options, const std::vector<int>& actio
         for (std::uint64_t i = 0; i < options.clips; ++i) there.erase(synth::clip_at(i, actions).name());
     if (!there.empty())
         throw Error(
-            "{}: holds {} .skeleton files that these options do not make, as {}.skeleton; choose another "
-            "folder with -o, or give the --actions and at least the --clips that they were made with",
-            options.folder.string(), there.size(), *there.begin());
+            "{}: holds {} that these options do not make, as {}.skeleton; choose another folder with -o, or "
+            "give the --seed, the --actions and at least the --clips that they were made with",
+            options.folder.string(), counted(there.size(), ".skeleton file"), *there.begin());
 }
 
 }  // namespace

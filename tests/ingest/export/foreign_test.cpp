@@ -6,6 +6,7 @@
 #include "ingest/export/export.hpp"
 #include "tests/support/error_of.hpp"
 #include "tests/support/made_dataset.hpp"
+#include "tests/support/tree.hpp"
 
 namespace actformer {
 namespace {
@@ -65,6 +66,35 @@ TEST_F(Foreign, AFolderIsCheckedBeforeAnythingIsWritten) {
     write_file(dir / "folder/c0_0.npz", "mine");
     EXPECT_NE(says(request).find("c0_0.npz: is there"), std::string::npos) << says(request);
     EXPECT_EQ(test::read_file(dir / "folder/c0_0.npz"), "mine");
+}
+
+TEST_F(Foreign, InputsAreKept) {
+    ASSERT_EQ(says(to("m.h5")), "");
+    fs::create_symlink("m.h5", dir / "link.h5");
+    const auto before = test::tree(dir.path());
+    const auto kept = [&](const std::string& input, const std::string& out, bool force) {
+        auto request = to(out, force);
+        request.input = dir / input;
+        EXPECT_EQ(says(request), (dir / out).string() + ": is an input of this export; choose another -o");
+        EXPECT_EQ(test::tree(dir.path()), before) << input << " to " << out;
+    };
+    for (const bool force : {false, true}) {
+        kept("m.h5", "m.h5", force);
+        kept("m.h5", "link.h5", force);
+        kept("link.h5", "m.h5", force);
+    }
+    kept("arms", "arms/shard-00000.h5", true);
+}
+
+TEST_F(Foreign, ADatasetsFolderTakesNoMotions) {
+    const auto before = test::tree(dir.path());
+    for (const bool force : {false, true}) {
+        auto request = to("arms", force);
+        request.format = "npz";
+        EXPECT_EQ(says(request),
+                  (dir / "arms").string() + ": holds a dataset, not exported motions; choose another -o");
+    }
+    EXPECT_EQ(test::tree(dir.path()), before);
 }
 
 TEST_F(Foreign, ShardsWeightsAndOtherMotionsAreKept) {
