@@ -1,4 +1,4 @@
-// Whether stored weights are those of a network, which its list on paper tells before the network takes memory. Knows nothing of torch.
+// Whether stored weights are those of a network, by its list of weights, before the network takes memory. Knows nothing of torch.
 #pragma once
 
 #include <string>

@@ -1,8 +1,7 @@
 #include "model/nn/module_arrays.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "base/error.hpp"
 #include "model/nn/tensor_array.hpp"
 
 namespace actformer::model {
@@ -29,15 +28,8 @@ std::vector<Array> arrays_of(const torch::nn::Module& module, const std::string&
 
 void load_arrays(const torch::nn::Module& module, const std::string& prefix, const std::vector<Array>& arrays,
                  const std::string& where) {
-    for (const auto& [name, tensor] : tensors_of(module)) {
-        const auto& array = array_named(arrays, prefix + name, where);
-        if (array.shape != tensor.sizes().vec())
-            throw Error(
-                "{}: '{}{}' is of shape ({}) where its configuration wants ({}): damaged, or of another "
-                "configuration",
-                where, prefix, name, fmt::join(array.shape, ", "), fmt::join(tensor.sizes(), ", "));
-        copy_into(tensor, array, where);
-    }
+    for (const auto& [name, tensor] : tensors_of(module))
+        copy_into(tensor, array_named(arrays, prefix + name, tensor.sizes().vec(), where), where);
 }
 
 void add_state(std::vector<Array>& arrays, const std::vector<at::Tensor>& tensors) {
@@ -48,14 +40,6 @@ void load_state(const std::vector<at::Tensor>& tensors, const std::vector<Array>
                 const std::string& where) {
     for (std::size_t i = 0; i < tensors.size(); ++i)
         copy_into(tensors[i], array_named(arrays, state_name(i), where), where);
-}
-
-const Array& array_named(const std::vector<Array>& arrays, const std::string& name,
-                         const std::string& where) {
-    const auto found = std::ranges::find(arrays, name, &Array::name);
-    if (found == arrays.end())
-        throw Error("{}: holds no '{}': damaged, or of another configuration", where, name);
-    return *found;
 }
 
 }  // namespace actformer::model

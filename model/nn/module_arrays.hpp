@@ -25,7 +25,4 @@ void add_state(std::vector<Array>& arrays, const std::vector<at::Tensor>& tensor
 void load_state(const std::vector<at::Tensor>& tensors, const std::vector<Array>& arrays,
                 const std::string& where);
 
-/// The array called `name`. Throws Error that begins with `where` where there is none.
-const Array& array_named(const std::vector<Array>& arrays, const std::string& name, const std::string& where);
-
 }  // namespace actformer::model

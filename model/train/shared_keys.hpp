@@ -38,6 +38,16 @@ void add_adam_keys(KeyTable<Settings>& table) {
                                 .most = 0.999999});
 }
 
+/// `padding`, of kernels::Padding.
+template <typename Settings>
+void add_padding_key(KeyTable<Settings>& table) {
+    table.add(
+        &Settings::padding,
+        {.name = "padding",
+         .meaning = "clips shorter than a window: back-and-forth, or hold the last frame (public tools)",
+         .choices = {"back-and-forth", "hold"}});
+}
+
 /// `average`.
 template <typename Settings>
 void add_ema_key(KeyTable<Settings>& table) {

@@ -107,7 +107,7 @@ void Loop::compare_data(const Json& state) const {
                     task_.dataset.folder().string());
     };
     if (state.at("persons") != header.persons)
-        refuse(fmt::format("clips of {} person{}", state.at("persons").get<int>(),
+        refuse(fmt::format("clips of {} person{}", state.at("persons").dump(),
                            state.at("persons") == 1 ? "" : "s"));
     if (state.at("representation") != header.representation.name())
         refuse("motions as " + state.at("representation").get<std::string>());
@@ -122,7 +122,7 @@ void Loop::compare_data(const Json& state) const {
     if (state.at("processes") != processes_.place().size)
         throw Error(
             "{}: holds a training by {} processes, and these are {}; start as many, or choose another -o",
-            folder, state.at("processes").get<int>(), processes_.place().size);
+            folder, state.at("processes").dump(), processes_.place().size);
 }
 
 void Loop::resume() {
@@ -233,6 +233,7 @@ void Loop::end_epoch() {
 void Loop::begin_validation(EpochReport& report) {
     if (!validations_.due(report.epoch, report.epoch == settings_.epochs)) return;
     log_later_validation();
+    check_weights();  // a recogniser's ReLU would make finite scores of NaN
     validations_.begin(report.epoch, step_);
     if (!validations_.in_background()) report.scores = end_validation();
 }

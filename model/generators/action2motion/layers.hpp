@@ -1,4 +1,4 @@
-// Action2Motion's networks on paper: their weights in order, their layers and parameter counts. Names are those of the public
+// Action2Motion's networks described without tensors: their weights in order, their layers and parameter counts. Names are those of the public
 // state_dicts behind `prior_net.`, `posterior_net.` and `decoder.`. Knows nothing of torch.
 #pragma once
 

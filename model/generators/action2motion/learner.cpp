@@ -22,8 +22,9 @@ std::shared_ptr<Network> network_of(const Settings& settings, const at::Device& 
 }
 
 /// Every process takes its own part of the windows.
-kernels::SamplerOptions sampling(std::uint64_t seed, std::uint64_t first) {
-    return {seed, kernels::ClassSampling::square_root, true, static_cast<std::uint32_t>(first)};
+kernels::SamplerOptions sampling(const Settings& settings, std::uint64_t first) {
+    return {settings.seed, kernels::ClassSampling::square_root, true, static_cast<std::uint32_t>(first),
+            settings.padding};
 }
 
 /// Whether a step is fed its own outputs: for all processes alike.
@@ -48,8 +49,7 @@ MotionLearner::MotionLearner(std::shared_ptr<Network> network, std::uint32_t bat
       batch_(batch),
       motions_(network_->settings(), where),
       feed_(setup.clips,
-            sampling(network_->settings().seed,
-                     static_cast<std::uint64_t>(setup.processes.place().rank) * batch),
+            sampling(network_->settings(), static_cast<std::uint64_t>(setup.processes.place().rank) * batch),
             batch, network_->settings().frames) {}
 
 /// Of the posterior, (T, N, latent).

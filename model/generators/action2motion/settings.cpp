@@ -56,6 +56,7 @@ const KeyTable<Settings>& table() {
                                             .meaning = "share of a weight that joins its gradient",
                                             .least = 0,
                                             .most = 1});
+        add_padding_key(table);
         add_ema_key(table);
         return table;
     }();

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernels/sampler.hpp"
 #include "model/generators/method.hpp"
 #include "model/nn/adam_settings.hpp"
 
@@ -30,7 +31,8 @@ struct Settings {
     double lambda_kl = 0.001;  ///< of the Kullback-Leibler divergence in the loss
     double rate = 2e-4, beta1 = 0.9, beta2 = 0.999;
     double weight_decay = 1e-5;  ///< added to the gradient, times the weight
-    double average = 0;          ///< decay a step of the EMA; 0 keeps none
+    kernels::Padding padding = kernels::Padding::back_and_forth;
+    double average = 0;  ///< decay a step of the EMA; 0 keeps none
     std::uint64_t seed = 0;
 
     ingest::Representation representation;

@@ -50,11 +50,8 @@ void add_training_keys(KeyTable<Settings>& keys) {
         .add(&Settings::points, {.name = "rcxyz",
                                  .meaning = "loss of positions: joints turned by the rotations; auto: where "
                                             "motions are rotations",
-                                 .choices = {"auto", "joints", "none"}})
-        .add(&Settings::padding,
-             {.name = "padding",
-              .meaning = "clips shorter than a window: back-and-forth, or hold the last frame (public tools)",
-              .choices = {"back-and-forth", "hold"}});
+                                 .choices = {"auto", "joints", "none"}});
+    add_padding_key(keys);
     add_ema_key(keys);
 }
 

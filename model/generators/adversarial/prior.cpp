@@ -20,13 +20,13 @@ at::Tensor exact_covariance(const PriorSettings& settings, std::int64_t channel,
     return (-((t.unsqueeze(1) - t.unsqueeze(0)) / length).square()).exp();
 }
 
-at::Tensor triangular_root(const at::Tensor& covariances) {
-    return at::linalg_cholesky(covariances + jitter * at::eye(covariances.size(1), at::kDouble));
+at::Tensor triangular_root(const at::Tensor& covariance) {
+    return at::linalg_cholesky(covariance + jitter * at::eye(covariance.size(0), at::kDouble));
 }
 
-at::Tensor symmetric_root(const at::Tensor& covariances) {
-    const auto [values, vectors] = at::linalg_eigh(covariances);
-    return (vectors * values.clamp_min(0).sqrt().unsqueeze(1)).matmul(vectors.transpose(1, 2));
+at::Tensor symmetric_root(const at::Tensor& covariance) {
+    const auto [values, vectors] = at::linalg_eigh(covariance);
+    return (vectors * values.clamp_min(0).sqrt()).matmul(vectors.t());
 }
 
 }  // namespace
@@ -42,12 +42,13 @@ at::Tensor Prior::factors(std::int64_t frames) const {
     const std::lock_guard lock(mutex_);
     auto& factors = factors_[frames];
     if (factors.defined()) return factors;
-    std::vector<at::Tensor> covariances;
-    for (std::int64_t c = 0; c < settings_.channels; ++c)
-        covariances.push_back(exact_covariance(settings_, c, frames));
-    const auto all = at::stack(covariances);
-    const auto roots = settings_.root == PriorRoot::symmetric ? symmetric_root(all) : triangular_root(all);
-    return factors = roots.permute({1, 2, 0}).to(at::kFloat).contiguous();
+    const auto roots = at::empty({settings_.channels, frames, frames}, at::kFloat);
+    for (std::int64_t c = 0; c < settings_.channels; ++c) {
+        const auto covariance = exact_covariance(settings_, c, frames);
+        roots[c].copy_(settings_.root == PriorRoot::symmetric ? symmetric_root(covariance)
+                                                              : triangular_root(covariance));
+    }
+    return factors = roots.permute({1, 2, 0}).contiguous();
 }
 
 at::Tensor Prior::draw(std::uint64_t index, std::int64_t count, std::int64_t frames,

@@ -22,22 +22,24 @@ using namespace actformer::model;
 
 namespace {
 
+/// Of an epoch on toy().
+Config small_config(const std::string& method) {
+    auto config = generator_config(method_named(method, "test"));
+    for (const auto* key : {"frames=16", "batch=4", "epochs=1", "threads=1", "seed=3", "train_split=s/train"})
+        config.override_with(key);
+    config.override_with("data=" + toy().string());
+    for (const auto& [key, value] :
+         std::map<std::string, std::string>{{"width", "32"},
+                                            {"hidden", "48"},
+                                            {"layers", "2"},
+                                            {"spread", "0.5"},
+                                            {"average", "0.9"}})  // where it has them
+        if (config.has(key)) config.override_with(key + "=" + value);
+    return config;
+}
+
 struct EveryMethod : testing::TestWithParam<std::string> {
-    Config config() const {
-        auto config = generator_config(method_named(GetParam(), "test"));
-        for (const auto* key :
-             {"frames=16", "batch=4", "epochs=1", "threads=1", "seed=3", "train_split=s/train"})
-            config.override_with(key);
-        config.override_with("data=" + toy().string());
-        for (const auto& [key, value] :
-             std::map<std::string, std::string>{{"width", "32"},
-                                                {"hidden", "48"},
-                                                {"layers", "2"},
-                                                {"spread", "0.5"},
-                                                {"average", "0.9"}})  // where it has them
-            if (config.has(key)) config.override_with(key + "=" + value);
-        return config;
-    }
+    Config config() const { return small_config(GetParam()); }
     TempDir dir;
 };
 
@@ -143,6 +145,28 @@ TEST(Methods, MakeMotionsOfFewPersons) {
                    generator_config(methods().front()), subjects, {});
     EXPECT_EQ(error_of([&] { load_generator(dir / "w.h5"); }),
               (dir / "w.h5").string() + ": motions of 101 persons, and generators make up to 100: damaged");
+}
+
+TEST(Methods, HoldTheLastFrameOfShortClipsWhereThatIsAskedFor) {
+    const TempDir dir;
+    std::vector<std::string> asked;
+    for (const auto& name : names()) {
+        if (!small_config(name).has("padding")) continue;
+        asked.push_back(name);
+        const auto first_loss = [&](const std::string& padding) {
+            auto config = small_config(name);
+            config.override_with("frames=48");  // the clips have 40
+            config.override_with("padding=" + padding);
+            double loss = 0;
+            TrainingEvents events;
+            events.epoch = [&](const EpochReport& report) { loss = report.losses.at(0).value; };
+            train_generator(config, dir / (name + padding), false, events);
+            return loss;
+        };
+        EXPECT_NE(first_loss("hold"), first_loss("back-and-forth")) << name;
+    }
+    std::ranges::sort(asked);
+    EXPECT_EQ(asked, (std::vector<std::string>{"action2motion", "actor"}));
 }
 
 TEST(Methods, AreNoRecognisers) {
