@@ -33,11 +33,11 @@ struct FlipOutcome {
 };
 
 /// Flips a byte of `file` at random, runs `read` and compares with what it makes of the whole file; so `times` times. An error has to
-/// hold one of `named`. With `must_read` a file of nothing but other bytes may not be without effect: `read` reads it at all. The file is
-/// whole again at the end.
+/// hold one of `named`. A file of nothing but other bytes may not be without effect, unless `may_be_unread`: `read` reads it at all. The
+/// file is whole again at the end.
 inline void flip_and_read(const std::string& what, const std::filesystem::path& file, std::size_t times,
                           const std::vector<std::string>& named, const std::function<FlipOutcome()>& read,
-                          bool must_read = false) {
+                          bool may_be_unread = false) {
     const auto whole = read_file(file);
     const auto wanted = read();
     ASSERT_EQ(wanted.error, "") << what;
@@ -64,7 +64,7 @@ inline void flip_and_read(const std::string& what, const std::filesystem::path& 
                           << int{static_cast<unsigned char>(bytes[at])} << ", and nobody noticed";
         }
     }
-    if (must_read) {
+    if (!may_be_unread) {
         auto bytes = whole;
         for (auto& byte : bytes) byte = static_cast<char>(byte ^ 0xFF);
         write_file(file, bytes);
