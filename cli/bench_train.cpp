@@ -18,6 +18,7 @@
 #include "base/text/counted.hpp"
 #include "base/text/printable.hpp"
 #include "cli/bench.hpp"
+#include "cli/common_options.hpp"
 #include "cli/say.hpp"
 #include "cli/say_json.hpp"
 #include "model/generators/method_speed.hpp"
@@ -195,7 +196,9 @@ void add_bench_train(CLI::App& bench) {
     command->add_option("--threads", options->request.threads, "Processor threads, the peer's too")
         ->check(CLI::Range(1U, most_threads))
         ->capture_default_str();
-    command->add_option("--rounds", options->rounds, "Runs a turn of which the best counts, the peer's too")
+    command
+        ->add_option("--rounds", options->rounds,
+                     "Runs in each turn, of which the best counts; for the peer too")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
     command->add_option("--peers", options->peers, "Folder of the reference program actformer_speed.py");
@@ -208,8 +211,7 @@ void add_bench_train(CLI::App& bench) {
         ->needs("--method")
         ->needs("--peers")
         ->check(CLI::ExistingFile);
-    command->add_option("overrides", options->request.overrides, "The method's settings, as in batch=32")
-        ->type_name("KEY=VALUE")
+    add_overrides(command, options->request.overrides, "The method's settings, as in batch=32")
         ->needs("--method");
     command->add_flag("--json", options->json, "Print JSON");
     examples(

@@ -67,8 +67,7 @@ void add_import_generator(CLI::App& parent) {
     auto options = std::make_shared<ImportOptions<model::ImportGeneratorRequest>>();
     auto* command = parent.add_subcommand("generator", "A released checkpoint of ACTOR or Action2Motion");
     add_files(command, *options);
-    command->add_option("overrides", options->request.overrides, "Settings that the checkpoint does not tell")
-        ->type_name("KEY=VALUE");
+    add_overrides(command, options->request.overrides, "Settings that the checkpoint does not tell");
     examples(command,
              "  actformer import generator checkpoint_5000.pth.tar --data humanact12 -o actor.h5\n"
              "  actformer generate --generator actor.h5 -o motions.h5 --frames 60\n"
@@ -100,7 +99,7 @@ void add_import_recogniser(CLI::App& parent) {
 }  // namespace
 
 void add_import(CLI::App& app) {
-    auto* command = app.add_subcommand("import", "Turn released PyTorch weights into weights of ours");
+    auto* command = app.add_subcommand("import", "Convert released PyTorch weights for this program");
     command->require_subcommand(1);
     add_import_generator(*command);
     add_import_recogniser(*command);

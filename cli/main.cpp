@@ -31,7 +31,7 @@ constexpr Subprogram subprograms[] = {
     {"render", "actformer-render", "Draw motions: a contact sheet (.png), a .gif or an .mp4"},
     {"train", "actformer-train", "Train a recogniser or a generator"},
     {"generate", "actformer-train", "Generate motions with a trained generator"},
-    {"import", "actformer-train", "Turn released PyTorch weights into weights of ours"},
+    {"import", "actformer-train", "Convert released PyTorch weights for this program"},
     {"model", "actformer-train", "Print a configuration's layers, shapes and parameter counts"}};
 
 /// Beside this program where it was built, in libexec where it is installed.
@@ -127,7 +127,7 @@ int first_words() {
             "  # others of the same actions, made by a trained generator\n"
             "  actformer generate --generator weights/cmu/actformer.h5 -o generated.h5\n";
     lines +=
-        "\nactformer --help tells all commands, in the order of a project's life; actformer COMMAND --help "
+        "\nactformer --help lists all commands; actformer COMMAND --help shows "
         "one of them,\nwith examples.\n";
     std::fputs(lines.c_str(), stderr);
     return 1;

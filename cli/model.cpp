@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/text/counted.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/say.hpp"
 #include "cli/say_json.hpp"
 #include "cli/shipped_option.hpp"
@@ -153,7 +154,7 @@ void add_model(CLI::App& app) {
     lists_shipped(command, "model/configs");
     command->add_option("--data", options->data, "Dataset whose joints, persons and classes to take")
         ->type_name("DATASET");
-    command->add_option("overrides", options->overrides, "As in width=0.5")->type_name("KEY=VALUE");
+    add_overrides(command, options->overrides, "As in width=0.5");
     command->add_flag("--json", options->json, "Print JSON");
     examples(command,
              "  actformer model                                        which configurations come with it\n"

@@ -70,7 +70,7 @@ void add_train_generator(CLI::App& train) {
     auto* command = train.add_subcommand("generator", "Train a method to generate motions of given classes");
     add_training_options(command, *options);
     command->add_flag("--data-parallel", options->data_parallel,
-                      "As one of the processes that torchrun, mpirun or srun started");
+                      "Train as one of the processes that torchrun, mpirun or srun started");
     examples(command,
              "  actformer train generator -c actformer-small --data ntu/ntu-1p -o generator\n"
              "  actformer train generator -c actformer-ntu-2p --data ntu/ntu-2p -o generator "

@@ -1,4 +1,4 @@
-// Logs: JSON objects, one a line, each with its number, `line`, from 1, and a checksum of its own (checked_json.hpp). Whoever reads one can
+// Logs: JSON objects, one a line, each with its number, `line`, from 1, and a checksum of its own (checked_json.hpp). A reader of one can
 // tell which lines are as this program wrote them, and which are not there; those of earlier versions and of others, which have no
 // checksum or number, are taken as they are.
 #pragma once

@@ -1,4 +1,4 @@
-// Checksums that stand in what they are of: a file's last line, or a member of a JSON object. Whoever reads it can tell whether it
+// Checksums that stand in what they are of: a file's last line, or a member of a JSON object. A reader can tell whether it
 // is as this program wrote it.
 #pragma once
 

@@ -16,7 +16,7 @@ namespace actformer::ingest::synth {
 void claim_folder(const std::filesystem::path& folder, std::string_view made_by, std::uint64_t seed,
                   std::optional<std::uint64_t> clips = {});
 
-/// A file whole or not at all, and the folders it lies in. Whoever makes such files calls sync_all() behind the last. Throws Error naming it and the remedy.
+/// A file whole or not at all, and the folders it lies in. The caller calls sync_all() after the last one. Throws Error naming it and the remedy.
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace actformer::ingest::synth

@@ -8,7 +8,7 @@
 
 namespace actformer::model {
 
-/// Trains as train() of model/train/trainer.hpp says; with `recogniser` generated motions are scored on the way, by
+/// Trains as train() of model/train/trainer.hpp says; with `recogniser` generated motions are scored during training, by
 /// the recogniser's accuracy and Fréchet distances. Where an EMA is kept it is what is scored.
 ///
 /// With `data_parallel`, as one of the processes that torchrun, mpirun or srun started (see place_of).

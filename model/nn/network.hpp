@@ -1,4 +1,4 @@
-// A network on paper: its weights in order and how they start, its layers and parameter counts. Knows nothing of torch.
+// A network described without tensors: its weights in order and how they start, its layers and parameter counts. Knows nothing of torch.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Whether a training can still be saved, by the mean losses of some steps at a time.
+// Whether a training has diverged, by the mean losses of some steps at a time.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,8 @@ class DivergenceWatch {
     /// Nothing is wrong: a checkpoint of now is worth keeping.
     bool sound() const { return trouble_.empty(); }
 
-    /// Why the training is beyond hope; empty while there is some. NaN or infinite losses are at once; any other trouble
-    /// is after `patience` steps of it.
+    /// Why the training has diverged; empty while it has not. NaN or infinite losses count at once, any other trouble
+    /// after `patience` steps of it.
     std::string verdict() const;
 
     static constexpr std::uint64_t patience = 200;

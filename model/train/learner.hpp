@@ -39,7 +39,7 @@ class Learner {
     /// the step's number.
     virtual void step(std::uint64_t step, double rate_share) = 0;
 
-    /// To which every step adds, (n) double on the device: reading them waits for it. The loop sets them to 0.
+    /// Sums of the losses over steps, (n) double on the device, to which every step adds. Reading them waits for the device. The loop sets them to 0.
     virtual at::Tensor& sums() = 0;
 
     /// What `sums` over the last `steps` steps come to.

@@ -1,4 +1,4 @@
-// The training loop: steps and epochs of a learner in a run folder, resumable to the bit, scored on the way, by one process or
+// The training loop: steps and epochs of a learner in a run folder, resumable to the bit, validated during training, by one process or
 // several. Includes torch headers.
 #pragma once
 

@@ -71,7 +71,7 @@ void add_trainer_keys(KeyTable<Settings>& table) {
         .add(&Settings::deterministic,
              {.name = "deterministic", .meaning = "CUDA: only kernels that give the same bits every time"})
         .add(&Settings::threads, {.name = "threads",
-                                  .meaning = "processor threads; 0 takes all",
+                                  .meaning = "processor threads; 0 takes OMP_NUM_THREADS, else all",
                                   .least = 0,
                                   .most = 1024,
                                   .free = true});

@@ -38,7 +38,7 @@ struct EpochReport {
     double seconds = 0, steps_a_second = 0, windows_a_second = 0;
 };
 
-/// Whom the training tells how it goes; any of them may be empty.
+/// Progress callbacks; any of them may be empty.
 struct TrainingEvents {
     std::function<void(double fraction, std::uint64_t steps)> progress;  ///< of the whole training
     std::function<void(const EpochReport&)> epoch;

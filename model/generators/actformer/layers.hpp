@@ -1,4 +1,4 @@
-// ActFormer's networks on paper: their weights in order, their layers and parameter counts. Knows nothing of torch.
+// ActFormer's networks described without tensors: their weights in order, their layers and parameter counts. Knows nothing of torch.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// ACTOR on paper: its weights in order, under the names of the public state_dict, and its layers. Knows nothing of torch.
+// ACTOR described without tensors: its weights in order, under the names of the public state_dict, and its layers. Knows nothing of torch.
 #pragma once
 
 #include <string>

@@ -12,7 +12,7 @@ namespace actformer::model {
 
 enum class Loss {
     wasserstein,  ///< D: mean D(fake) - mean D(real); G: - mean D(fake) (equation 1 of ActFormer)
-    hinge         ///< D: mean max(0, 1 - D(real)) + mean max(0, 1 + D(fake)); G the same
+    hinge         ///< D: mean max(0, 1 - D(real)) + mean max(0, 1 + D(fake)); G: - mean D(fake)
 };
 
 struct GanSettings : AugmentationSettings {

@@ -13,7 +13,7 @@ enum class PriorKind {
 /// What turns normal numbers into Gaussian processes. The covariance is the same, the motions of a seed are others.
 enum class PriorRoot {
     triangular,  ///< Cholesky's factor, of the covariance with 1e-6 on its diagonal
-    symmetric    ///< the only symmetric root
+    symmetric    ///< the symmetric root without negative eigenvalues
 };
 
 struct PriorSettings {

@@ -1,4 +1,4 @@
-// CSGN's networks on paper: their weights in order, their layers and parameter counts. Knows nothing of torch.
+// CSGN's networks described without tensors: their weights in order, their layers and parameter counts. Knows nothing of torch.
 #pragma once
 
 #include <vector>

@@ -5,7 +5,7 @@
 
 namespace actformer::model {
 
-/// What numbers (N, C, T, K) are more than in the frame before, times `gain`; 0 in the `still` first frames, one or more.
+/// First differences over frames of numbers (N, C, T, K), times `gain`; 0 in the `still` first frames, one or more.
 inline at::Tensor difference(const at::Tensor& numbers, double gain = 1, std::int64_t still = 1) {
     const auto t = numbers.size(2);
     auto moved = numbers.slice(2, still, t) - numbers.slice(2, still - 1, t - 1);

@@ -1,4 +1,4 @@
-// Graph convolutions whose weights are shared by all nodes, on any device. Includes torch headers.
+// Graph convolutions with weights shared by all nodes, and one over all nodes with weights for each, on any device. Includes torch headers.
 #pragma once
 
 #include <ATen/ATen.h>
