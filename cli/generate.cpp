@@ -68,7 +68,8 @@ void add_generate(CLI::App& app) {
         ->check(CLI::Range(1, 4096));
     command->add_option("--device", request.device, "Where libtorch works: cpu, cuda or cuda:N")
         ->capture_default_str();
-    command->add_option("--threads", request.threads, "Processor threads (default: OMP_NUM_THREADS, else all)")
+    command
+        ->add_option("--threads", request.threads, "Processor threads (default: OMP_NUM_THREADS, else all)")
         ->check(CLI::Range(1U, most_threads));
     command->add_flag("--force", options->force, "Replace a file that this program did not write");
     command->add_flag("--json", options->json, "Print JSON");

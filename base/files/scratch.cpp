@@ -33,7 +33,9 @@ fs::path system_place() {
     std::error_code error;
     auto place = fs::temp_directory_path(error);
     if (!error) return place;
-    const char* set = std::getenv("TMPDIR");
+    const char* set = nullptr;
+    for (const auto* name : {"TMPDIR", "TMP", "TEMP", "TEMPDIR"})
+        if (!set) set = std::getenv(name);
     throw Error("{}: no folder for temporary files ({}); let TMPDIR name one", set ? set : "/tmp",
                 error.message());
 }

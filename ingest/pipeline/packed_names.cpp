@@ -51,7 +51,8 @@ std::vector<std::string> remarks_on_packed(const std::filesystem::path& folder,
     std::vector<std::string> whole, single;
     for (const auto& path : paths) (is_archive(path) ? whole : single).push_back(printable(path));
     std::vector<std::string> lines;
-    if (!whole.empty()) lines.push_back(remark(folder, whole, "archive", "give {} as RAW too"));
+    if (!whole.empty())
+        lines.push_back(remark(folder, whole, "archive", "unless unpacked there, give {} as RAW too"));
     if (!single.empty()) lines.push_back(remark(folder, single, "compressed file", "unpack {}"));
     return lines;
 }

@@ -12,7 +12,7 @@ namespace actformer::ingest {
 bool is_packed(std::string_view path);
 
 /// Remarks on packed files below `folder`, a line on archives and one on compressed files, as in
-/// "2 archives in raw are not read (S002.tar.gz, S003.zip): give them as RAW too". `paths` are relative to the folder.
+/// "2 archives in raw are not read (S002.tar.gz, S003.zip): unless unpacked there, give them as RAW too". `paths` are relative to the folder.
 std::vector<std::string> remarks_on_packed(const std::filesystem::path& folder,
                                            std::vector<std::string> paths);
 

@@ -349,6 +349,7 @@ struct Source::State {
 
     /// Of `packed` files in a folder that was given, those that were not given themselves.
     void remark_on(std::size_t folder, const std::vector<std::string>& packed) {
+        if (packed.empty()) return;
         std::set<std::optional<std::pair<dev_t, ino_t>>> themselves;
         for (const auto& path : given) themselves.insert(identity_of(path));
         std::vector<std::string> others;

@@ -61,7 +61,8 @@ using Work = std::variant<IngestWork, TrainingWork, GenerationWork, ScoringWork,
 struct Job {
     std::string kind;   ///< ingest, recogniser, generator, generate, score
     std::string title;  ///< for people
-    std::string id;  ///< kind-FINGERPRINT: the same work has the same id, in every sweep and on every machine
+    std::string
+        id;  ///< kind-FINGERPRINT: the same work has the same id, in every sweep that sees the same files
     Work work;
     std::vector<std::size_t> needs;  ///< jobs that must be done before, each earlier in the list
     std::string problem;             ///< not empty: it cannot be done, and why

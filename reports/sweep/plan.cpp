@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -160,15 +161,23 @@ class Planner {
         return at;
     }
 
-    /// The contents of a file that a word names, as in --labels=classes.csv, or of the weights in a folder, are part of the fingerprint.
-    void count_named(const std::string& word) {
+    /// The contents of a file that an argument names, as in --labels=classes.csv, are part of the fingerprint.
+    void count_argument(const std::string& word) {
         const auto file = word.starts_with("-") ? word.substr(word.find('=') + 1) : word;
         std::error_code ignored;
-        if (!fs::exists(file, ignored)) return;
+        const bool number = file.find_first_not_of("0123456789") == std::string::npos;
+        if (!number && fs::is_regular_file(file, ignored)) contents_ += "|" + checksum_file(file);
+    }
+
+    /// What a training's windows are, and the recogniser that chooses its weights, are part of the fingerprint.
+    void count_settings(const Settings& set, const std::string& config) {
+        if (text_in(set, config, "joints", {}) == "common15") contents_ += "|centred windows";
+        const auto chooses = text_in(set, config, "recogniser", {});
+        std::error_code ignored;
+        if (!fs::exists(chooses, ignored)) return;
         try {
-            contents_ +=
-                "|" + checksum_file(fs::is_directory(file) ? eval::weights_of(file) : fs::path(file));
-        } catch (const Error&) {  // no file of the job's; or the job will say why
+            contents_ += "|" + checksum_file(eval::weights_of(chooses));
+        } catch (const Error&) {  // the training will say why
         }
     }
 
@@ -219,7 +228,12 @@ class Planner {
     }
 
     Made dataset(const std::string& name) {
-        const auto& d = sweep_.datasets.at(name);
+        const auto found = datasets_.find(name);
+        return found != datasets_.end() ? found->second
+                                        : datasets_[name] = new_dataset(sweep_.datasets.at(name), name);
+    }
+
+    Made new_dataset(const SweepDataset& d, const std::string& name) {
         Job job;
         job.kind = "ingest";
         job.title = "dataset " + name;
@@ -236,7 +250,7 @@ class Planner {
         work.actions = d.actions;
         work.arguments = d.arguments;
         for (const auto& raw : d.raw) work.raw.push_back(with_listing(raw, job));
-        for (const auto& word : d.arguments) count_named(word);
+        for (const auto& word : d.arguments) count_argument(word);
         if (d.clips > 0) {
             job.amount = static_cast<double>(d.clips);
             job.pace = 300;  // written as text first
@@ -261,7 +275,7 @@ class Planner {
     std::size_t train(Job job, const std::string& config, const Settings& set, const Made& data) {
         need(job, data);
         TrainingWork work{job.kind, configuration(config, job), data.path, set};
-        for (const auto& [key, value] : set) count_named(value);
+        count_settings(set, work.config);
         job.amount =
             number_in(set, work.config, "epochs", 0) * data.clips / 2;  // a protocol trains on about half
         job.pace = training_pace(job.kind, set, work.config);
@@ -392,6 +406,7 @@ class Planner {
     const JobRunner& runner_;
     std::string contents_;        ///< checksums of the files that the next job reads
     std::set<std::string> read_;  ///< their paths
+    std::map<std::string, Made> datasets_;
     Plan plan_;
 };
 

@@ -230,7 +230,9 @@ JobStatus run_one(const Sweep& sweep, const Plan& plan, const std::string& id, c
             safe_points.stop("the same command goes on from there");
         return status;
     }
-    throw Error("there is no job '{}' in this sweep; was its file changed since it was submitted?", id);
+    throw Error(
+        "there is no job '{}' in this sweep; was its file, or a raw file, changed since it was submitted?",
+        id);
 }
 
 }  // namespace actformer::reports

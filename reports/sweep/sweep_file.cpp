@@ -177,8 +177,10 @@ void refuse_beside(const Place& place, const std::string& name, const Entry& ent
     if (!says(entry, there)) return;
     for (const char* key : keys)
         if (says(entry, key))
-            place.fail(entry.at(key), fmt::format("dataset '{}': '{}' says nothing beside '{}'; leave it out",
-                                                  name, key, there));
+            place.fail(entry.at(key),
+                       fmt::format("dataset '{}': '{}' says nothing beside '{}'; leave it out, or take "
+                                   "an inherited one away with `{}: ~`",
+                                   name, key, there, key));
 }
 
 /// A setting that is overwritten by what the entry's key `instead` says.

@@ -25,7 +25,7 @@ bool stands(const BodyHeight& height) {
 
 /// The beginning of a doubt that the remedy follows: how bodies stand along the axis `along`.
 std::string odd_stance(const BodyHeight& height, const std::string& along) {
-    if (height.axis == 'y') return "bodies stand on their heads: ";
+    if (height.axis == 'y') return "bodies stand on their heads: where they should not, ";
     return fmt::format("bodies {} along {}: where they do not lie, ",
                        height.up == 0 ? "are longest" : "point from the root to the head", along);
 }
@@ -42,8 +42,8 @@ std::vector<std::string> body_doubts(const BodyHeight& height, const PositionsRe
     std::vector<std::string> out;
     if (const auto size = odd_size(height); !size.empty())
         out.push_back(fmt::format(
-            "bodies {} at {:.4g} metres a unit: --scale {:.4g} would make them about as tall as a person",
-            size, request.scale, fitting_scale(height.metres / request.scale)));
+            "bodies {} at --scale {:.4g}: --scale {:.4g} would make them about as tall as a person", size,
+            request.scale, fitting_scale(height.metres / request.scale)));
     if (stands(height)) return out;
     const auto up = axis_of_array(height, request);
     out.push_back(fmt::format("{}--up {}{} turns them upright", odd_stance(height, up), up,

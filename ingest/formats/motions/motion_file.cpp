@@ -156,11 +156,10 @@ class Look {
             out_.bone_length = subjects->bone_length;
             out_.rest = subjects->rest;
         }
-        const bool either_is_stored = !told && how_.axes.empty() && takes_either_as_stored(file, keys);
         bool first = true;
         for (const auto& key : keys) {
             const auto shape = file.shape(key);
-            if (!told && holds_positions(shape, either_is_stored)) {
+            if (!told && holds_positions(file, key, shape)) {
                 NumpyArray array;
                 array.shape.assign(shape.begin(), shape.end());
                 add(key, array, topology());
@@ -171,10 +170,12 @@ class Look {
         }
     }
 
-    /// Positions have their coordinates on the last axis, motions of the public layout their frames.
-    bool holds_positions(const hdf5::Shape& shape, bool either_is_stored) const {
-        return !how_.axes.empty() || shape.size() != 3 ||
-               (fits_positions(shape) && !(either_is_stored && fits_stored(shape)));
+    /// Positions have their coordinates on the last axis, motions of the public layout their frames. (3 P, joints, 3) may be three frames of
+    /// those, or 3 P frames of positions: the first person's limbs tell.
+    bool holds_positions(const hdf5::Reader& file, const std::string& key, const hdf5::Shape& shape) const {
+        if (!how_.axes.empty() || shape.size() != 3) return true;
+        if (!fits_positions(shape)) return false;
+        return !fits_stored(shape) || topology().joints() == 1 || !has_unit_limbs(first_person(file, key));
     }
 
     bool fits_positions(const hdf5::Shape& shape) const {
@@ -184,20 +185,6 @@ class Look {
         if (shape.size() != 3 || shape[0] == 0 || shape[2] == 0) return false;
         const auto representation = usual(shape);
         return shape[0] % representation.numbers() == 0 && shape[1] == representation.nodes(topology());
-    }
-
-    /// (3 P, joints, 3) may be three frames of the public layout, or 3 P frames of positions. They are what the file's other arrays
-    /// are; where there are no others, what the first person's limbs make them.
-    bool takes_either_as_stored(const hdf5::Reader& file, const std::vector<std::string>& keys) const {
-        std::optional<std::string> either;
-        bool positions = false;
-        for (const auto& key : keys) {
-            const auto shape = file.shape(key);
-            if (fits_stored(shape) && !fits_positions(shape)) return true;
-            if (fits_positions(shape) && !fits_stored(shape)) positions = true;
-            if (fits_positions(shape) && fits_stored(shape) && !either) either = key;
-        }
-        return either && !positions && topology().joints() > 1 && has_unit_limbs(first_person(file, *either));
     }
 
     /// Of an array (3 P, joints, 3), taken for three frames of limbs.

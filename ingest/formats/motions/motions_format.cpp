@@ -311,13 +311,19 @@ class MotionsFormat::FileReader {
         sink_.take(Rejection{kind, std::move(reason)});
     }
 
+    /// Files without names give joints their numbers.
+    static bool tells_name(const Topology& topology, std::size_t joint) {
+        const auto number = std::to_string(joint);
+        return topology.names[joint] != number && topology.names[joint] != "joint " + number;
+    }
+
     /// Why the file's motions are not of the dataset's skeleton; empty where they are.
     std::string other_skeleton() const {
         if (file_.topology && format_.options_.topology.empty()) {
             const auto &own = *file_.topology, &wanted = header_.topology;
             if (own.parents != wanted.parents) return "its skeleton is not that of the first file";
             for (std::size_t j = 0; j < wanted.joints(); ++j)
-                if (own.names[j] != wanted.names[j])
+                if (own.names[j] != wanted.names[j] && tells_name(own, j) && tells_name(wanted, j))
                     return fmt::format(
                         "its joint {} is {}, and {} in the first file; --topology takes joints by their "
                         "order",

@@ -492,7 +492,8 @@ TEST_F(PipelineOnDevice, ArchivesAmongTheFilesAreToldOfWheneverItIsAskedFor) {
     const std::string surveyed = "1 files surveyed";
     const std::vector<std::string> told{
         surveyed,
-        fmt::format("1 archive in {} is not read (b.tar.gz): give it as RAW too", (dir / "raw").string())};
+        fmt::format("1 archive in {} is not read (b.tar.gz): unless unpacked there, give it as RAW too",
+                    (dir / "raw").string())};
     EXPECT_EQ(run(format).remarks, told);
     EXPECT_NE(read_file(dir / "out/ingest.json").find("(b.tar.gz)"), std::string::npos);
     const auto again = run(format);

@@ -159,21 +159,23 @@ TEST_F(Files, ThatArePackedInAFolderAreToldAndNotRead) {
     fs::create_directories(dir / "raw/folder.zip");
     const auto in_raw = " in " + (dir / "raw").string();
     const auto compressed = "1 compressed file" + in_raw + " is not read (b/three.skeleton.gz): unpack it";
-    EXPECT_EQ(not_read({dir / "raw"}),
-              (Lines{"4 archives" + in_raw +
-                         " are not read (a/S003.TAR.gz, b/S002.tar, c/S004.zip, ...): give them as RAW too",
-                     compressed}));
+    EXPECT_EQ(not_read({dir / "raw"}), (Lines{"4 archives" + in_raw +
+                                                  " are not read (a/S003.TAR.gz, b/S002.tar, c/S004.zip, "
+                                                  "...): unless unpacked there, give them as RAW too",
+                                              compressed}));
     EXPECT_EQ(contents({dir / "raw"}), expected);
     EXPECT_EQ(Source({dir / "raw"}, {".skeleton"}).listing(), listing);
     fs::remove(dir / "raw/c/S004.zip");
     fs::remove(dir / "raw/c/S005.7z");
     EXPECT_EQ(not_read({dir / "raw/b/../b/S002.tar", dir / "raw"}),
-              (Lines{"1 archive" + in_raw + " is not read (a/S003.TAR.gz): give it as RAW too", compressed}));
+              (Lines{"1 archive" + in_raw +
+                         " is not read (a/S003.TAR.gz): unless unpacked there, give it as RAW too",
+                     compressed}));
     write_file(dir / "packed/S006.rar", "");
-    EXPECT_EQ(message({dir / "packed"}),
-              fmt::format("{0}: no .skeleton file there; 1 archive in {0} is not read (S006.rar): give it as "
-                          "RAW too",
-                          (dir / "packed").string()));
+    EXPECT_EQ(message({dir / "packed"}), fmt::format("{0}: no .skeleton file there; 1 archive in {0} is not "
+                                                     "read (S006.rar): unless unpacked there, give it as "
+                                                     "RAW too",
+                                                     (dir / "packed").string()));
 }
 
 TEST_F(Files, ThatBeginLikeUnusualArchivesStartNoProgram) {

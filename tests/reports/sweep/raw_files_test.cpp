@@ -21,6 +21,11 @@ TEST(RawFiles, AreTheSameUntilOneIsThereMoreOrChanges) {
     write_file(out / "b.bvh", "the sweep's own");
     EXPECT_EQ(listing_of(raw, out), at_first) << "its own files are none of them";
     EXPECT_NE(listing_of(raw, dir / "elsewhere"), at_first);
+    for (const auto* name : {".nfs01", "notes.txt~", "data/dataset.json", "data/shard-00000.h5"}) {
+        fs::create_directories((raw / name).parent_path());
+        write_file(raw / name, "none of an ingest's");
+    }
+    EXPECT_EQ(listing_of(raw, out), at_first);
     write_file(raw / "b.bvh", "a run");
     const auto with_another = listing_of(raw, out);
     EXPECT_NE(with_another, at_first);
