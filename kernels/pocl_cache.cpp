@@ -27,7 +27,7 @@ bool has_pocl() {
     return false;
 }
 
-/// As PoCL chooses it (lib/CL/pocl_cache.c).
+/// As PoCL chooses it.
 fs::path pocl_cache() {
     if (const auto given = environment("POCL_CACHE_DIR"); !given.empty()) return given;
     if (const auto cache = environment("XDG_CACHE_HOME"); !cache.empty())
