@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
@@ -196,11 +195,10 @@ void Config::load_text(const std::string& text, const std::string& where) {
 
 void Config::take(const YAML::Node& root, const std::string& file) {
     if (!root.IsMap()) throw Error("{}: not a list of `key: value` lines", file);
-    std::set<std::string> seen;
+    if (const auto bad = bad_key(root)) throw Error("{}:{}: {}", file, bad->line, bad->what);
     for (const auto& entry : root) {
         const auto where = fmt::format("{}:{}", file, entry.first.Mark().line + 1);
         const auto name = scalar(entry.first);
-        if (!seen.insert(name).second) throw Error("{}: {} is given twice", where, printable(name));
         if (name == "model") {
             const auto named = scalar(entry.second);
             if (named == model_ || (!named.empty() && std::ranges::count(other_names_, named) > 0)) continue;
@@ -209,7 +207,7 @@ void Config::take(const YAML::Node& root, const std::string& file) {
         const auto i = index_of(name, where);
         values_[i] = parsed(keys_[i], entry.second, where);
     }
-    if (!seen.contains("model") && std::ranges::count(other_names_, "") == 0)
+    if (!root["model"] && std::ranges::count(other_names_, "") == 0)
         throw Error("{}: the line `model: {}` is missing", file, model_);
 }
 

@@ -127,7 +127,8 @@ class Taker {
     void list(const char* key, std::vector<T>& to, const char* kind) {
         take(key, [&](const Node& n) {
             to.clear();
-            if (n.IsScalar()) to.push_back(place_.as<T>(n, key, kind));
+            if (n.IsScalar()) return to.push_back(place_.as<T>(n, key, kind));
+            place_.expect_list(n, fmt::format("'{}'", key));
             for (const auto& item : n) to.push_back(place_.as<T>(item, key, kind));
         });
     }

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
-#include <set>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/text/yaml.hpp"
 
 namespace actformer::reports {
 
@@ -22,12 +22,9 @@ struct YamlPlace {
         if (!node.IsMap()) fail(node, what + " must be a map of keys and values");
         expect_keys_once(node, what);
     }
-    /// Of a key that is given twice one reader would take the first value and another the last.
     void expect_keys_once(const YAML::Node& map, const std::string& what) const {
-        std::set<std::string> seen;
-        for (const auto& item : map)
-            if (!seen.insert(item.first.Scalar()).second)
-                fail(item.first, fmt::format("{}: '{}' is given twice", what, item.first.Scalar()));
+        if (const auto bad = bad_key(map))
+            throw Error("{}: line {}: {}: {}", file, bad->line, what, bad->what);
     }
     void expect_list(const YAML::Node& node, const std::string& what) const {
         if (!node.IsSequence()) fail(node, what + " must be a list");

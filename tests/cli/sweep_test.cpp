@@ -460,6 +460,10 @@ TEST_F(Sweep, RefusesWhatMakesNoSense) {
     expect_refused({"line 9", "'repeats'", "whole number"});
     sweep_file("  a: {seeds: [0, 1, 0]}\n");
     expect_refused({"line 9", "seed 0 twice"});
+    sweep_file("  a: {seeds: {first: 0}}\n");
+    expect_refused({"line 9", "'seeds' must be a list"});
+    sweep_file("  a: {? [seeds] : 3}\n");
+    expect_refused({"line 9", "rows: 'a': a key must be a text"});
     sweep_file("  a: {repeats: 0}\n");
     expect_refused({"'repeats'", "at least 1"});
     sweep_file("  a: {set: {seed: 7}}\n");

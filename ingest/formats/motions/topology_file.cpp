@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include "base/error.hpp"
 #include "base/files/file.hpp"
 #include "base/text/printable.hpp"
+#include "base/text/yaml.hpp"
 #include "ingest/dataset/known_topologies.hpp"
 
 namespace actformer::ingest {
 namespace {
-
-constexpr std::uint64_t largest_file = std::uint64_t{16} << 20;
 
 int parent_in(const YAML::Node& node, const std::vector<std::string>& names) {
     const auto text = node.IsNull() ? std::string("-1") : node.as<std::string>();
@@ -24,18 +22,9 @@ int parent_in(const YAML::Node& node, const std::vector<std::string>& names) {
                                 : node.as<int>();
 }
 
-/// Of two values the library would take the first.
-void refuse_keys_given_twice(const YAML::Node& map, const std::string& path) {
-    std::set<std::string> seen;
-    for (const auto& item : map)
-        if (!seen.insert(item.first.Scalar()).second)
-            throw Error("{}: line {}: {} is given twice", path, item.first.Mark().line + 1,
-                        item.first.Scalar());
-}
-
 Topology topology_in(const std::string& path) {
     std::vector<char> scratch;
-    const std::string text(read_text(path, scratch, largest_file));
+    const std::string text(read_text(path, scratch, largest_yaml));
     try {
         const auto node = YAML::Load(text);
         if (!node.IsMap() || !node["names"] || !node["names"].IsSequence() || !node["parents"] ||
@@ -44,7 +33,7 @@ Topology topology_in(const std::string& path) {
                 "{}: a skeleton is told by names and parents, as in names: [hips, knee, foot], parents: [-1, "
                 "0, 1]",
                 path);
-        refuse_keys_given_twice(node, path);
+        if (const auto bad = bad_key(node)) throw Error("{}: line {}: {}", path, bad->line, bad->what);
         Topology topology;
         for (const auto& name : node["names"]) topology.names.push_back(printable(name.as<std::string>()));
         for (const auto& parent : node["parents"])

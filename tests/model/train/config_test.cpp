@@ -87,6 +87,7 @@ TEST_F(Configs, RefusesFilesLargerThanAnyConfiguration) {
 
 TEST_F(Configs, RefusesWhatIsNoConfiguration) {
     expect_refused("model: recogniser\nbatch: 1\nbatch: 2\n", {"c.yaml:3", "twice"});
+    expect_refused("model: recogniser\n[batch]: 1\n", {"c.yaml:2", "a key must be a text"});
     expect_refused("batch: 1\n", {"`model: recogniser` is missing"});
     expect_refused("model: generator\n", {"c.yaml:1", "generator"});
     expect_refused("model: " + std::string(100'000, 'x') + "\n", {"c.yaml:1", "xxx...'"});

@@ -171,6 +171,8 @@ TEST(OwnTables, RefuseWhatWouldHideSomething) {
              {"table1: {rows: {a: {NTU-9P: []}}}", "no key 'NTU-9P'"},
              {"table1: {rows: {a: {}}}\ntable1: {rows: {b: {}}}", "line 2: tables: 'table1' is given twice"},
              {"table1: {rows: {a: {}}, rows: {b: {}}}", "table 'table1': 'rows' is given twice"},
+             {"table1: {rows: {a: {}}}\n[table2]: {rows: {b: {}}}", "line 2: tables: a key must be a text"},
+             {"table1: {rows: {a: {}}}\n~: {rows: {b: {}}}", "line 2: tables: a key must be a text"},
              {"[mine]", "must be a map"}}) {
         std::string why = "nothing is wrong";
         try {

@@ -66,7 +66,8 @@ TEST(TopologyFile, NamesWhatIsWrong) {
     EXPECT_EQ(fault("names: [a, a]\nparents: [-1, 0]"), ": two joints have the same name");
     EXPECT_EQ(fault("names: [a, b]\nparents: [-1, c]").substr(0, 9), ": line 2:");
     EXPECT_EQ(fault("names: [a, b").substr(0, 6), ": line");
-    EXPECT_EQ(fault("names: [a, b]\nparents: [-1, 0]\nparents: [1, -1]"), ": line 3: parents is given twice");
+    EXPECT_EQ(fault("names: [a, b]\nparents: [-1, 0]\nparents: [1, -1]"),
+              ": line 3: 'parents' is given twice");
     try {
         topology_called("smpl25");
         FAIL() << "taken";
