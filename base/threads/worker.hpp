@@ -43,9 +43,14 @@ class Worker {
 
     /// Waits until all is done; throws what a job threw.
     void finish() {
+        end_what_waits();
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+    /// As `finish`, after another failure, which is the one to tell: what a job threw is not thrown again.
+    void end_what_waits() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return (waiting_.empty() && !busy_) || failure_; });
-        if (failure_) std::rethrow_exception(failure_);
     }
 
   private:

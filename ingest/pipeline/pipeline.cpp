@@ -225,18 +225,29 @@ class Ingest {
                 add(portion, workplace, writer);
             });
         };
-        for (;;) {
-            Group group;
-            const auto start = Clock::now();
-            const bool any = groups.next(group);
-            summary_.seconds.walk += seconds_since(start);
-            if (!any) break;
-            parsers.add(std::move(group));
-            while (parsers.groups() == groups_at_once) hand_on();
+        const auto read_on = [&] {
+            for (;;) {
+                Group group;
+                const auto start = Clock::now();
+                const bool any = groups.next(group);
+                summary_.seconds.walk += seconds_since(start);
+                if (!any) break;
+                parsers.add(std::move(group));
+                while (parsers.groups() == groups_at_once) hand_on();
+            }
+            while (parsers.groups() > 0) hand_on();
+        };
+        try {
+            read_on();
+            cleaner.finish();
+            writer.finish();
+        } catch (const Interrupted&) {
+            throw;
+        } catch (...) {  // what came before the failure is ended and kept
+            cleaner.end_what_waits();
+            writer.end_what_waits();
+            throw;
         }
-        while (parsers.groups() > 0) hand_on();
-        cleaner.finish();
-        writer.finish();
     }
 
     /// An Error that `work` throws becomes a rejection of the file.

@@ -152,6 +152,28 @@ class TogetherFormat : public LineFormat {
     mutable bool gave_up_ = false;
 };
 
+/// The first shard is not written, for which its settings are asked, until a file's reading has failed.
+class LateFormat : public LineFormat {
+  public:
+    void read(const RawText& raw, ClipSink& sink) const override {
+        reading_ = true;
+        try {
+            LineFormat::read(raw, sink);
+        } catch (...) {
+            failed_ = true;
+            failed_.notify_all();
+            throw;
+        }
+    }
+    std::string settings() const override {
+        if (reading_) failed_.wait(false);
+        return LineFormat::settings();
+    }
+
+  private:
+    mutable std::atomic<bool> reading_ = false, failed_ = false;
+};
+
 /// Takes what an ingest makes for raw files.
 class GreedyFormat : public LineFormat {
   public:
@@ -363,6 +385,13 @@ TEST_F(PipelineOnDevice, WhatAnIngestLeftGoesWhenAllIsDone) {
     write_file(dir / "out.partial/data/shard-00000.h5.partial", "left");
     EXPECT_TRUE(run(format).was_complete);
     EXPECT_FALSE(fs::exists(dir / "out.partial"));
+}
+
+TEST_F(PipelineOnDevice, WhatWaitsToBeWrittenWhenALaterFileFailsIsKept) {
+    LateFormat late;
+    run_until_it_stops(late);
+    LineFormat resumed;
+    EXPECT_EQ(run(resumed).resumed_files, 4096U);
 }
 
 TEST_F(PipelineOnDevice, WhatChangedBetweenAStopAndTheNextRunIsMadeAgainAndNamed) {
