@@ -30,12 +30,7 @@ std::string in_units(std::uint64_t bytes) {
 }  // namespace
 
 std::string_view read_text(const fs::path& path, std::vector<char>& scratch, std::uint64_t limit) {
-    refuse_irregular(path);
-    const Descriptor file(path, O_RDONLY);
-    struct stat status {};
-    if (file.get() < 0 || ::fstat(file.get(), &status) != 0)
-        throw Error("{}: cannot be read: {}", path.string(), reason());
-    const auto size = static_cast<std::uint64_t>(status.st_size);
+    const auto [file, size] = open_to_read(path);
     if (size > limit)
         throw Error("{}: {}, and a file of this kind has at most {}; look whether it is the right file",
                     path.string(), in_units(size), in_units(limit));
@@ -50,9 +45,7 @@ std::string_view read_text(const fs::path& path, std::vector<char>& scratch, std
 }
 
 void read_in_pieces(const fs::path& path, const std::function<void(std::string_view)>& use) {
-    refuse_irregular(path);
-    const Descriptor file(path, O_RDONLY);
-    if (file.get() < 0) throw Error("{}: cannot be read: {}", path.string(), reason());
+    const auto file = open_to_read(path).file;
     std::vector<char> piece(std::size_t{1} << 20);
     while (const auto got = read_fully(file.get(), piece.data(), piece.size(), path))
         use({piece.data(), got});

@@ -1,16 +1,13 @@
 #include "base/files/mapped_file.hpp"
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <functional>
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/files/descriptor.hpp"
 #include "base/files/file.hpp"
 #include "base/files/regular_file.hpp"
 
@@ -30,22 +27,14 @@ std::size_t whole_pages(std::size_t bytes) {
 
 // Zero bytes first, for the padding, and the file over their beginning: what the file leaves of its last page is zero too.
 MappedFile::MappedFile(const std::filesystem::path& path) {
-    refuse_irregular(path);
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    struct stat status {};
-    if (file < 0 || ::fstat(file, &status) != 0) {
-        const auto why = std::strerror(errno);
-        if (file >= 0) ::close(file);
-        throw Error("{}: cannot be read: {}", path.string(), why);
-    }
-    size_ = static_cast<std::size_t>(status.st_size);
+    const auto [file, size] = open_to_read(path);
+    size_ = static_cast<std::size_t>(size);
     mapped_ = whole_pages(size_ + text_padding);
     void* all = ::mmap(nullptr, mapped_, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     void* over = all == MAP_FAILED || size_ == 0
                      ? all
-                     : ::mmap(all, size_, PROT_READ, MAP_PRIVATE | MAP_FIXED, file, 0);
-    const auto why = std::strerror(errno);
-    ::close(file);
+                     : ::mmap(all, size_, PROT_READ, MAP_PRIVATE | MAP_FIXED, file.get(), 0);
+    const auto why = reason();
     if (over == MAP_FAILED) {
         if (all != MAP_FAILED) ::munmap(all, mapped_);
         throw Error("{}: cannot be read: {}", path.string(), why);

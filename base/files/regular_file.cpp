@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <cerrno>
+#include <cstring>
 #include <utility>
 
 #include "base/error.hpp"
@@ -37,6 +38,20 @@ const char* irregular_kind(const std::filesystem::path& path) {
 void refuse_irregular(const std::filesystem::path& path) {
     if (const std::string kind = irregular_kind(path); !kind.empty())
         throw Error("{}: {}, where a regular file is expected", path.string(), kind);
+}
+
+Readable open_to_read(const std::filesystem::path& path) {
+    int error = 0;
+    for (const int flags : {O_RDONLY | O_NONBLOCK, O_RDONLY}) {  // only the first waits for no FIFO's writer
+        Descriptor file(path, flags);
+        struct stat status {};
+        if (file.get() >= 0 && ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode))
+            return {std::move(file), static_cast<std::uint64_t>(status.st_size)};
+        error = errno;
+        refuse_irregular(path);
+        if (error != EWOULDBLOCK) break;  // else another program has to give up its lease on the file first
+    }
+    throw Error("{}: cannot be read: {}", path.string(), std::strerror(error));
 }
 
 Descriptor open_regular(const std::filesystem::path& path, int flags) {
