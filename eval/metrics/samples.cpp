@@ -44,6 +44,7 @@ Samples subset(const Samples& from, const std::vector<std::size_t>& which) {
     Samples out;
     out.dimensions = from.dimensions;
     out.classes = from.classes;
+    out.features.reserve(which.size() * from.dimensions);
     const auto append = [](auto& to, const auto& values, std::size_t row, std::size_t columns) {
         const auto first = values.begin() + static_cast<std::ptrdiff_t>(row * columns);
         to.insert(to.end(), first, first + static_cast<std::ptrdiff_t>(columns));
