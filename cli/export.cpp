@@ -51,6 +51,13 @@ std::string formats(const std::string& before) {
     return text;
 }
 
+/// As in "{h5,npz}", which completions offer.
+std::string format_names() {
+    std::vector<std::string> names;
+    for (const auto& format : ingest::export_formats()) names.emplace_back(format.name);
+    return fmt::format("{{{}}}", fmt::join(names, ","));
+}
+
 }  // namespace
 
 void add_export(CLI::App& app) {
@@ -70,8 +77,8 @@ void add_export(CLI::App& app) {
     command
         ->add_option("--format", request.format,
                      "Make a folder with a file a clip of this kind, named after it (CLIP.bvh, CLIP_p1.bvh "
-                     "of several persons): h5, npz, bvh or glb")
-        ->type_name("KIND");
+                     "of several persons)")
+        ->type_name("KIND:" + format_names());
     command->add_option("--split", selection.split, "As in xsub/train (default: all clips)");
     command->add_option("--class", selection.label, "Clips of this class: its name, or its number from 1");
     command->add_option("--clip", selection.clips, "This clip; may be given again")->allow_extra_args(false);

@@ -121,7 +121,8 @@ void add_render(CLI::App& app) {
         ->type_name("FILE");
     command
         ->add_option("--view", options->view,
-                     "front, side, back, top, orbit, three-quarter, or AZIMUTH,ELEVATION in degrees")
+                     "Where it is seen from; or AZIMUTH,ELEVATION in degrees, as in 30,15")
+        ->type_name("VIEW:{front,side,back,top,orbit,three-quarter}")
         ->capture_default_str();
     command
         ->add_option("--size", options->size,

@@ -119,6 +119,7 @@ TEST(Completion, OfBashCompletesCommandsOptionsAndValues) {
     EXPECT_EQ(completed("actformer synth ntu --cl"), "--clips\n");
     EXPECT_EQ(completed("actformer ingest bvh raw --positions i"), "ignore\n");
     EXPECT_EQ(completed("actformer completion z"), "zsh\n");
+    EXPECT_EQ(completed("actformer export m.h5 -o walks --format g"), "glb\n");
     if (fs::exists(program() + "-train")) {
         EXPECT_EQ(completed("actformer train gen"), "generator\n");
         EXPECT_EQ(completed("actformer train generator -c actformer-b"), "actformer-bnr10\n");
