@@ -54,7 +54,9 @@ std::vector<char*> next(std::vector<char>& message, int& output) {
     arguments.push_back(nullptr);
     ::clearenv();
     for (auto i = words + 2; i < texts.size(); ++i) ::putenv(texts[i]);
-    std::exit(main_of_it(static_cast<int>(words) + 1, arguments.data()));
+    const int code = main_of_it(static_cast<int>(words) + 1, arguments.data());
+    std::fflush(nullptr);
+    std::_Exit(code);  // as the program does, without the libraries' own ends
 }
 
 }  // namespace
