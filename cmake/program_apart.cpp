@@ -103,8 +103,7 @@ void load_openblas_in_little_memory() {
     ::dlopen("libblas.so.3", RTLD_LAZY | RTLD_LOCAL);
 }
 
-/// For on_exit(3): without the libraries' own ends. Libtorch's takes a tenth of a second; OpenBLAS's waits for its threads, and under a
-/// limit on memory these wait for what they cannot get.
+/// For on_exit(3): without the libraries' own ends. OpenBLAS's waits for its threads, and these wait for memory that they cannot get.
 void end_now(int code, void*) {
     std::fflush(nullptr);
     std::_Exit(code);
@@ -121,7 +120,7 @@ int main(int argc, char** argv) {
     if (!std::getenv("OPENBLAS_CORETYPE")) start_again_with_vectors(program.c_str(), argv);
     void* const library = ::dlopen(library_of(program).c_str(), RTLD_NOW | RTLD_LOCAL);
     std::set_terminate(usual);
-    ::on_exit(end_now, nullptr);
+    if (memory_is_limited()) ::on_exit(end_now, nullptr);
     using Main = int(int, char**);
     auto* const main_of_it = library ? reinterpret_cast<Main*>(::dlsym(library, "main")) : nullptr;
     if (main_of_it) return main_of_it(argc, argv);

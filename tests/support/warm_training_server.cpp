@@ -56,7 +56,7 @@ std::vector<char*> next(std::vector<char>& message, int& output) {
     for (auto i = words + 2; i < texts.size(); ++i) ::putenv(texts[i]);
     const int code = main_of_it(static_cast<int>(words) + 1, arguments.data());
     std::fflush(nullptr);
-    std::_Exit(code);  // as the program does, without the libraries' own ends
+    std::_Exit(code);  // libtorch's own end takes longer than many a command
 }
 
 }  // namespace
