@@ -14,6 +14,7 @@
 #include "cli/progress.hpp"
 #include "cli/say.hpp"
 #include "reports/motions/gather.hpp"
+#include "reports/pictures/camera.hpp"
 #include "reports/pictures/render.hpp"
 
 namespace actformer::cli {
@@ -122,7 +123,7 @@ void add_render(CLI::App& app) {
     command
         ->add_option("--view", options->view,
                      "Where it is seen from; or AZIMUTH,ELEVATION in degrees, as in 30,15")
-        ->type_name("VIEW:{front,side,back,top,orbit,three-quarter}")
+        ->type_name(fmt::format("VIEW:{{{}}}", fmt::join(reports::view_names(), ",")))
         ->capture_default_str();
     command
         ->add_option("--size", options->size,

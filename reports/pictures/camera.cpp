@@ -1,17 +1,24 @@
 #include "reports/pictures/camera.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/text/lower_case.hpp"
 
 namespace actformer::reports {
 namespace {
+
+constexpr std::pair<const char*, View> named_views[] = {
+    {"front", {0, 8, false}}, {"side", {90, 8, false}}, {"back", {180, 8, false}},
+    {"top", {0, 90, false}},  {"orbit", {0, 14, true}}, {"three-quarter", {}},
+};
 
 const cv::Vec3d vertical{0, 1, 0};
 
@@ -188,11 +195,15 @@ double reach_of(const JointMotion& motion) {
 
 }  // namespace
 
+std::vector<std::string> view_names() {
+    std::vector<std::string> names;
+    for (const auto& [name, view] : named_views) names.emplace_back(name);
+    return names;
+}
+
 View parse_view(const std::string& text) {
-    static const std::map<std::string, View> named{{"front", {0, 8, false}},  {"side", {90, 8, false}},
-                                                   {"back", {180, 8, false}}, {"top", {0, 90, false}},
-                                                   {"orbit", {0, 14, true}},  {"three-quarter", {}}};
-    if (const auto found = named.find(text); found != named.end()) return found->second;
+    for (const auto& [name, view] : named_views)
+        if (text == name) return view;
     View view;
     const char* end = text.data() + text.size();
     const auto azimuth = std::from_chars(text.data(), end, view.azimuth);
@@ -203,10 +214,8 @@ View parse_view(const std::string& text) {
             return view;
     }
     throw Error(
-        "'{}' is no view; give front, side, back, top, orbit, three-quarter, or AZIMUTH,ELEVATION in "
-        "degrees, as in "
-        "30,15 (elevation from -90 to 90)",
-        text);
+        "'{}' is no view; give {}, or AZIMUTH,ELEVATION in degrees, as in 30,15 (elevation from -90 to 90)",
+        text, fmt::join(view_names(), ", "));
 }
 
 cv::Vec3d Camera::on_floor(cv::Point2d pixel, double height) const {

@@ -16,8 +16,10 @@ struct View {
     bool orbit = false;  ///< the camera walks once around over the length of the motion
 };
 
-/// "front", "side", "back", "top", "orbit", "three-quarter", or "AZ,EL" in degrees. Throws Error listing
-/// these.
+/// Views that have a name: front, side, ...
+std::vector<std::string> view_names();
+
+/// A name of view_names(), or "AZ,EL" in degrees. Throws Error listing these.
 View parse_view(const std::string& text);
 
 /// A world point as the camera sees it: pixels from the cell's corner (y down), and pixels nearer to the
