@@ -53,7 +53,7 @@ void lay_over(Entry& entry, const std::string& key, const Node& value) {
 /// Of an entry's settings too each key once, before they are joined with others.
 void expect_entry(const Place& place, const Node& node, const std::string& what) {
     place.expect_map(node, what);
-    if (const auto set = node["set"]; set && set.IsMap()) place.expect_keys_once(set, what + ", set");
+    if (const auto set = node["set"]; set && set.IsMap()) place.expect_keys(set, what + ", set");
 }
 
 /// One section's entries with `like` resolved.
@@ -358,7 +358,7 @@ Sweep read_sweep(const std::filesystem::path& file) {
     const auto root = load(file);
     const std::vector<std::string> known{"name", "datasets", "recognisers", "base", "tables", "rows"};
     if (!root.IsMap()) throw Error("{}: holds no sweep: {}", file.string(), fmt::join(known, ", "));
-    place.expect_keys_once(root, "a sweep");
+    place.expect_keys(root, "a sweep");
     for (const auto& item : root) {
         const auto key = item.first.Scalar();
         if (std::ranges::find(known, key) == known.end())

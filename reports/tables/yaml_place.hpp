@@ -17,12 +17,12 @@ struct YamlPlace {
     [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const {
         throw Error("{}: line {}: {}", file, node.Mark().line + 1, what);
     }
-    /// With each key once.
     void expect_map(const YAML::Node& node, const std::string& what) const {
         if (!node.IsMap()) fail(node, what + " must be a map of keys and values");
-        expect_keys_once(node, what);
+        expect_keys(node, what);
     }
-    void expect_keys_once(const YAML::Node& map, const std::string& what) const {
+    /// Text alone, each once.
+    void expect_keys(const YAML::Node& map, const std::string& what) const {
         if (const auto bad = bad_key(map))
             throw Error("{}: line {}: {}: {}", file, bad->line, what, bad->what);
     }
