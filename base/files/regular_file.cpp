@@ -42,8 +42,8 @@ void refuse_irregular(const std::filesystem::path& path) {
 
 Readable open_to_read(const std::filesystem::path& path) {
     int error = 0;
-    for (const int flags :
-         {O_RDONLY | O_NONBLOCK, O_RDONLY}) {  // a FIFO without a writer would be waited for
+    // Without O_NONBLOCK a FIFO would be waited for until it has a writer.
+    for (const int flags : {O_RDONLY | O_NONBLOCK, O_RDONLY}) {
         Descriptor file(path, flags);
         struct stat status {};
         if (file.get() >= 0 && ::fstat(file.get(), &status) == 0 && S_ISREG(status.st_mode))
